@@ -1,0 +1,11 @@
+# What every target of the ladder shares: warning flags, and add_rung() for one tutorial's program.
+
+add_library(gll_warnings INTERFACE)
+target_compile_options(gll_warnings INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${GLLADDER_WERROR}>:-Werror>)
+
+# add_rung(NN_name SOURCE...): the executable of one rung, from files beside the caller's CMakeLists.txt.
+function(add_rung name)
+    add_executable(${name} ${ARGN})
+    target_link_libraries(${name} PRIVATE gll_run gll_warnings)
+endfunction()
