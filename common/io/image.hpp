@@ -1,0 +1,44 @@
+// Images as plain data: pixels in memory, read from and written to files through OpenImageIO.
+// No OpenGL and no OpenImageIO header here; both stay on the other side of this interface.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <variant>
+#include <vector>
+
+namespace gll {
+
+// What the numbers of an image mean.
+enum class ColourSpace {
+    srgb,   // BT.709 primaries, sRGB transfer function: what a display is sent
+    linear, // BT.709 primaries, linear light; any range
+    data,   // not a colour: normals, roughness, depth
+};
+
+// One image. Row 0 is the top; pixel (x, y) has its channels at index (y * width + x) * channels.
+struct Image {
+    int width = 0;
+    int height = 0;
+    int channels = 0; // 1 to 4: grey, grey + alpha, RGB, RGBA
+    ColourSpace colour_space = ColourSpace::linear;
+    // 8-bit values stand for value / 255; floats for themselves.
+    std::variant<std::vector<std::uint8_t>, std::vector<float>> pixels;
+};
+
+inline constexpr int max_image_extent = 16384;                         // pixels along either side
+inline constexpr std::size_t max_image_bytes = std::size_t(512) << 20; // of decoded pixels
+
+// Reads a PNG, JPEG (8-bit: as sRGB), Radiance HDR or EXR (float: as linear), told apart by the first bytes,
+// not by the name. Other formats, sizes over the limits above and files that do not decode whole are refused:
+// throws std::runtime_error "path: what, what to do". 16-bit PNGs are read as float in [0, 1], sRGB. Alpha
+// stays unassociated. An EXR's NaN and infinities are kept: callers that cannot use them must look for them.
+Image loadImage(const std::filesystem::path& path);
+
+// Writes .png (8-bit pixels only), .exr or .hdr (float pixels only; .exr as half unless full_float, infinite
+// beyond
+// +-65504 then; .hdr takes three channels, finite and not negative). The file appears whole or not at all,
+// and equal pixels make equal files. Throws std::runtime_error "path: what, what to do".
+void saveImage(const std::filesystem::path& path, const Image& image, bool full_float = true);
+
+} // namespace gll
