@@ -1,0 +1,252 @@
+// Headless rendering: the frames asked for, one after the other, each from its own settings alone.
+#include "app/headless.hpp"
+
+#include "app/capture.hpp"
+#include "app/cost.hpp"
+#include "app/usage_error.hpp"
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace gll {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void onInterrupt(int) {
+    interrupted = 1;
+    std::signal(SIGINT, SIG_DFL); // a second Ctrl-C ends the program at once
+}
+
+// Copies the target of one pass right after it was drawn.
+class PassCapture final : public PassObserver {
+  public:
+    explicit PassCapture(std::string pass) : pass_(std::move(pass)) {}
+    void after(const DrawnPass& pass) override {
+        if (pass.name == pass_) image = readTexture(pass.target->texture(0));
+    }
+
+    std::optional<Image> image;
+
+  private:
+    std::string pass_;
+};
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words)
+        text += (text.empty() ? "" : ", ") + word;
+    return text;
+}
+
+Image renderImage(Renderer& renderer, const FrameRequest& request, int frame) {
+    PassCapture capture(request.target);
+    const auto& passes = renderer.render(frame, request.size, request.target.empty() ? nullptr : &capture);
+    if (request.target.empty()) {
+        Image image = readTexture(renderer.presented().color());
+        image.colour_space = ColourSpace::srgb; // what the last pass wrote for a display
+        return image;
+    }
+    if (const Texture* texture = findTarget(passes, request.target)) {
+        Image image = readTexture(*texture);
+        if (texture == &renderer.presented().color()) image.colour_space = ColourSpace::srgb;
+        return image;
+    }
+    if (capture.image) return *capture.image;
+    std::vector<std::string> names = targetNames(passes);
+    for (const DrawnPass& pass : passes)
+        names.push_back(pass.name);
+    throw UsageError("--target " + request.target + ": with these settings there is " + joined(names));
+}
+
+// Says how far a long sequence is, on a terminal, once two seconds have gone.
+class Progress {
+  public:
+    explicit Progress(std::size_t total) : total_(total), on_terminal_(isatty(fileno(stderr)) != 0) {}
+    ~Progress() {
+        if (shown_) std::fputs("\r\033[K", stderr);
+    }
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+    void step() {
+        ++done_;
+        if (!on_terminal_) return;
+        const auto now = std::chrono::steady_clock::now();
+        if (now - start_ < std::chrono::seconds(2) || now - last_ < std::chrono::milliseconds(200)) return;
+        last_ = now;
+        shown_ = true;
+        std::fprintf(stderr, "\rframe %zu of %zu\033[K", done_, total_);
+    }
+
+  private:
+    std::size_t total_;
+    bool on_terminal_;
+    std::size_t done_ = 0;
+    bool shown_ = false;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    std::chrono::steady_clock::time_point last_ = start_;
+};
+
+std::size_t frameCount(const FrameRequest& request) {
+    return static_cast<std::size_t>((request.last_frame - request.first_frame) / request.step) + 1;
+}
+
+// A folder that is not there or not writable is an error before rendering, not after.
+void checkWritable(const std::filesystem::path& out) {
+    const std::filesystem::path folder = out.has_parent_path() ? out.parent_path() : ".";
+    std::error_code error;
+    if (!std::filesystem::is_directory(folder, error))
+        throw std::runtime_error(out.string() + ": the folder " + folder.string() +
+                                 " is not there; make it first");
+    if (std::filesystem::is_directory(out, error)) throw std::runtime_error(out.string() + ": is a folder");
+}
+
+void renderRequest(Renderer& renderer, const FrameRequest& request, const Options& options,
+                   const RungInfo& info, Settings& settings, Progress& progress) {
+    settings.applyPreset(request.preset);
+    for (const std::string& set : request.sets)
+        settings.set(set);
+    if (!request.out.empty()) checkWritable(request.outFor(request.first_frame));
+    for (int frame = request.first_frame; frame <= request.last_frame && interrupted == 0;
+         frame += request.step) {
+        if (!request.out.empty()) {
+            const std::filesystem::path out = request.outFor(frame);
+            saveImage(out, forFile(renderImage(renderer, request, frame), out.extension().string()));
+            if (!options.json)
+                std::printf("%s: frame %d, %dx%d\n", out.c_str(), frame, request.size.x, request.size.y);
+        }
+        if (request.cost) {
+            const CostReport report = measureCost(renderer, info, frame, request.size, options.counter);
+            std::fputs((options.json ? costJson(report) : costTable(report)).c_str(), stdout);
+        }
+        progress.step();
+    }
+    std::fflush(stdout);
+}
+
+std::string range(const Setting& setting) {
+    Setting bound = setting;
+    switch (setting.kind) {
+    case Setting::Kind::toggle:
+        return "on, off";
+    case Setting::Kind::choice:
+        return joined(setting.choices);
+    case Setting::Kind::number:
+    case Setting::Kind::integer:
+        break;
+    }
+    bound.value = setting.min;
+    const std::string from = bound.text();
+    bound.value = setting.max;
+    return from + " to " + bound.text();
+}
+
+nlohmann::ordered_json settingJson(const Setting& setting) {
+    constexpr const char* kinds[] = {"number", "integer", "toggle", "choice"};
+    nlohmann::ordered_json json{{"name", setting.name},
+                                {"kind", kinds[static_cast<std::size_t>(setting.kind)]},
+                                {"help", setting.help}};
+    Setting at_default = setting;
+    at_default.value = setting.default_value;
+    switch (setting.kind) {
+    case Setting::Kind::toggle:
+        json["default"] = setting.default_value != 0;
+        break;
+    case Setting::Kind::choice:
+        json["default"] = at_default.text();
+        json["choices"] = setting.choices;
+        break;
+    case Setting::Kind::number:
+    case Setting::Kind::integer:
+        json["default"] = setting.default_value;
+        json["min"] = setting.min;
+        json["max"] = setting.max;
+        break;
+    }
+    return json;
+}
+
+} // namespace
+
+std::unique_ptr<Context> makeHeadlessContext(ContextKind kind) {
+    if (kind == ContextKind::egl) return makeEglContext();
+    if (kind == ContextKind::osmesa) return makeOsmesaContext();
+    try {
+        return makeOsmesaContext();
+    } catch (const std::runtime_error& osmesa_error) {
+        try {
+            return makeEglContext();
+        } catch (const std::runtime_error& egl_error) {
+            throw std::runtime_error(std::string(osmesa_error.what()) + "; " + egl_error.what());
+        }
+    }
+}
+
+int runHeadless(const Options& options, const RungInfo& info, Settings& settings) {
+    std::signal(SIGINT, onInterrupt);
+    const std::unique_ptr<Context> context = makeHeadlessContext(options.context);
+    Renderer renderer(*context, info, options.files);
+    const std::vector<FrameRequest> requests =
+        options.is_batch ? options.batch : std::vector<FrameRequest>{options.request};
+    std::size_t total = 0;
+    for (const FrameRequest& request : requests)
+        total += frameCount(request);
+    Progress progress(total);
+    for (const FrameRequest& request : requests) {
+        if (interrupted != 0) break;
+        renderRequest(renderer, request, options, info, settings, progress);
+    }
+    return interrupted != 0 ? 130 : 0;
+}
+
+int listSettings(const Options& options, const RungInfo& info, Settings& settings) {
+    std::vector<std::string> targets;
+    std::vector<std::string> passes;
+    std::string reason;
+    try {
+        const auto context = makeHeadlessContext(ContextKind::headless);
+        Renderer renderer(*context, info, options.files);
+        const auto& drawn = renderer.render(1, {64, 64});
+        targets = targetNames(drawn);
+        for (const DrawnPass& pass : drawn)
+            passes.push_back(pass.name);
+    } catch (const std::runtime_error& error) {
+        reason = error.what();
+    }
+    if (options.json) {
+        nlohmann::ordered_json json{{"rung", info.name}, {"summary", info.summary}};
+        for (const Setting& setting : settings.all())
+            json["settings"].push_back(settingJson(setting));
+        for (const Settings::Preset& preset : settings.presets())
+            json["presets"].push_back(
+                {{"name", preset.name}, {"help", preset.help}, {"values", preset.values}});
+        json["targets"] = targets;
+        json["passes"] = passes;
+        if (!reason.empty()) json["targets_unknown"] = reason;
+        std::printf("%s\n", json.dump(2).c_str());
+        return 0;
+    }
+    std::printf("%s: %s\n\nsettings (--set KEY=VALUE)\n", info.name.c_str(), info.summary.c_str());
+    for (const Setting& setting : settings.all()) {
+        Setting at_default = setting;
+        at_default.value = setting.default_value;
+        std::printf("  %-18s %-16s %s\n  %-18s %-16s (%s)\n", setting.name.c_str(), at_default.text().c_str(),
+                    setting.help.c_str(), "", "", range(setting).c_str());
+    }
+    std::printf("\npresets (--preset NAME)\n");
+    for (const Settings::Preset& preset : settings.presets())
+        std::printf("  %-18s %s\n", preset.name.c_str(), preset.help.c_str());
+    if (reason.empty())
+        std::printf("\ntargets (--target NAME: as they are when the frame ends)\n  %s\n\npasses (--target "
+                    "NAME: right "
+                    "after the pass)\n  %s\n",
+                    joined(targets).c_str(), joined(passes).c_str());
+    else
+        std::printf("\ntargets and passes need an OpenGL context: %s\n", reason.c_str());
+    return 0;
+}
+
+} // namespace gll

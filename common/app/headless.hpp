@@ -1,0 +1,21 @@
+// Rendering without a window: to files, in batches, for measuring and for listing what a rung has.
+#pragma once
+
+#include "app/options.hpp"
+
+#include <memory>
+
+namespace gll {
+
+// The context that --context or --headless asks for. Throws std::runtime_error saying what is missing.
+std::unique_ptr<Context> makeHeadlessContext(ContextKind kind);
+
+// Does what the options ask for and prints what was written. Throws std::runtime_error or UsageError on
+// failure. Returns the exit code: 0, or 130 where Ctrl-C ended it between two frames.
+int runHeadless(const Options& options, const RungInfo& info, Settings& settings);
+
+// --settings: settings, presets, and, from a small frame rendered for the purpose, targets and passes. Where
+// no context is to be had, those two are left out and the reason is printed.
+int listSettings(const Options& options, const RungInfo& info, Settings& settings);
+
+} // namespace gll

@@ -1,0 +1,277 @@
+// The command line by CLI11, the batch file by nlohmann/json; both fill the same request.
+#include "app/options.hpp"
+
+#include "app/capture.hpp"
+#include "app/usage_error.hpp"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#ifndef GLLADDER_VERSION
+#error "the build defines GLLADDER_VERSION"
+#endif
+
+namespace gll {
+namespace {
+
+constexpr int max_extent_px = 16384;
+constexpr std::int64_t max_pixels = std::int64_t(64) << 20;
+
+int parseInteger(std::string_view text, int min, int max, const std::string& what) {
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || value < min || value > max)
+        throw UsageError(what + ": \"" + std::string(text) + "\" is not a whole number from " +
+                         std::to_string(min) + " to " + std::to_string(max));
+    return value;
+}
+
+// "A..B" or "A..B:S" into the request.
+void parseFrames(const std::string& text, FrameRequest& request) {
+    const auto dots = text.find("..");
+    if (dots == std::string::npos) throw UsageError("--frames " + text + ": write A..B or A..B:STEP");
+    const auto colon = text.find(':', dots);
+    const std::string_view view = text;
+    request.first_frame = parseInteger(view.substr(0, dots), 1, max_frame, "--frames");
+    request.last_frame = parseInteger(view.substr(dots + 2, colon - dots - 2), 1, max_frame, "--frames");
+    request.step =
+        colon == std::string::npos ? 1 : parseInteger(view.substr(colon + 1), 1, max_frame, "--frames");
+    if (request.last_frame < request.first_frame)
+        throw UsageError("--frames " + text + ": ends before it begins");
+}
+
+// The place of a lone "%d" (or "%0Nd") in a file name: offset and length. Any other % is an error.
+std::optional<std::pair<std::size_t, std::size_t>> findCounter(const std::string& name) {
+    std::optional<std::pair<std::size_t, std::size_t>> place;
+    for (std::size_t i = name.find('%'); i != std::string::npos; i = name.find('%', i + 1)) {
+        std::size_t end = i + 1;
+        while (end < name.size() && std::isdigit(static_cast<unsigned char>(name[end])) != 0 && end < i + 3)
+            ++end;
+        if (end >= name.size() || name[end] != 'd' || place)
+            throw UsageError("--out " + name + ": only one %d (or %04d) may stand in it");
+        place.emplace(i, end + 1 - i);
+    }
+    return place;
+}
+
+void checkRequest(const FrameRequest& request) {
+    if (!request.out.empty() && !isWritableImage(request.out))
+        throw UsageError("--out " + request.out.string() + ": the name must end in .png, .exr or .hdr");
+    const bool counted = findCounter(request.out.string()).has_value();
+    if (request.isSequence() && !request.out.empty() && !counted)
+        throw UsageError("--out " + request.out.string() +
+                         ": several frames need a %d in the name, such as frame_%04d.png");
+}
+
+void checkSettings(const FrameRequest& request, const Settings& settings) {
+    // Tried on the declarations' own storage, which is reset again: a copy would leave handles behind.
+    auto& tried = const_cast<Settings&>(settings);
+    try {
+        tried.applyPreset(request.preset);
+        for (const std::string& set : request.sets)
+            tried.set(set);
+    } catch (...) {
+        tried.reset();
+        throw;
+    }
+    tried.reset();
+}
+
+std::string scalarText(const nlohmann::json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_boolean()) return value.get<bool>() ? "on" : "off";
+    return value.dump();
+}
+
+FrameRequest parseBatchLine(const std::string& line, FrameRequest request) {
+    const auto json = nlohmann::json::parse(line, nullptr, false);
+    if (!json.is_object()) throw UsageError("not a JSON object on one line");
+    for (const auto& [key, value] : json.items()) {
+        if (key == "size") {
+            request.size = parseSize(scalarText(value));
+        } else if (key == "frame") {
+            request.first_frame = request.last_frame = parseInteger(scalarText(value), 1, max_frame, "frame");
+        } else if (key == "frames") {
+            parseFrames(scalarText(value), request);
+        } else if (key == "preset") {
+            request.preset = scalarText(value);
+        } else if (key == "out") {
+            request.out = scalarText(value);
+        } else if (key == "target") {
+            request.target = scalarText(value);
+        } else if (key == "cost" && value.is_boolean()) {
+            request.cost = value.get<bool>();
+        } else if (key == "set" && value.is_object()) {
+            for (const auto& [name, setting] : value.items())
+                request.sets.push_back(name + "=" + scalarText(setting));
+        } else if (key == "set" && value.is_array()) {
+            for (const auto& setting : value)
+                request.sets.push_back(scalarText(setting));
+        } else {
+            throw UsageError("\"" + key +
+                             "\" with this value is no key of a batch line; there is size, frame, "
+                             "frames, preset, set (an object or a list), out, target, cost");
+        }
+    }
+    checkRequest(request);
+    return request;
+}
+
+std::vector<FrameRequest> readBatch(const std::string& file, const FrameRequest& base,
+                                    const Settings& settings) {
+    std::error_code error;
+    if (std::filesystem::is_directory(file, error)) throw std::runtime_error(file + ": is a folder");
+    std::ifstream stream(file);
+    if (!stream) throw std::runtime_error(file + ": cannot be opened; --batch wants a file of JSON lines");
+    std::vector<FrameRequest> requests;
+    std::string line;
+    for (int number = 1; std::getline(stream, line); ++number) {
+        if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+        try {
+            requests.push_back(parseBatchLine(line, base));
+            checkSettings(requests.back(), settings);
+        } catch (const UsageError& usage) {
+            throw UsageError(file + ":" + std::to_string(number) + ": " + usage.what());
+        }
+    }
+    if (requests.empty()) throw UsageError(file + ": no frame is asked for; write one JSON object a line");
+    return requests;
+}
+
+ContextKind contextKind(const std::string& name) {
+    if (name == "window") return ContextKind::window;
+    return name == "egl" ? ContextKind::egl : ContextKind::osmesa;
+}
+
+CounterKind counterKind(const std::string& name) {
+    if (name == "perf") return CounterKind::perf;
+    if (name == "callgrind") return CounterKind::callgrind;
+    if (name == "cpu") return CounterKind::cpu;
+    return name == "gpu" ? CounterKind::gpu : CounterKind::automatic;
+}
+
+} // namespace
+
+glm::ivec2 parseSize(const std::string& text) {
+    const auto x = text.find('x');
+    if (x == std::string::npos) throw UsageError("--size " + text + ": write WIDTHxHEIGHT, such as 640x480");
+    const std::string_view view = text;
+    const glm::ivec2 size(parseInteger(view.substr(0, x), 1, max_extent_px, "--size"),
+                          parseInteger(view.substr(x + 1), 1, max_extent_px, "--size"));
+    if (std::int64_t(size.x) * size.y > max_pixels)
+        throw UsageError("--size " + text + ": more than 64 Mi pixels");
+    return size;
+}
+
+std::filesystem::path FrameRequest::outFor(int frame) const {
+    std::string name = out.string();
+    if (const auto place = findCounter(name)) {
+        const std::string format = name.substr(place->first, place->second);
+        char number[32];
+        const int width = format.size() > 2 ? std::atoi(format.c_str() + 1) : 0;
+        std::snprintf(number, sizeof number, "%0*d", width, frame);
+        name.replace(place->first, place->second, number);
+    }
+    return name;
+}
+
+std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info, const Settings& settings) {
+    CLI::App app(info.summary, info.name);
+    app.set_version_flag("--version", info.name + " " GLLADDER_VERSION " (GL Ladder)");
+    app.get_formatter()->column_width(28);
+    app.footer(
+        "Without --context, the rung opens a window; --out, --frames, --target, --batch and --cost render\n"
+        "headless instead. In the window: H hides the panel, Space pauses, P writes the frame, Esc quits.");
+
+    Options options;
+    bool headless = false;
+    std::string context;
+    std::string size;
+    std::string frame;
+    std::string frames;
+    std::string batch;
+    std::string counter = "auto";
+    app.add_flag("--headless", headless,
+                 "render without a window: OSMesa, or EGL where that is not installed");
+    app.add_option("--context", context, "who provides OpenGL: window, osmesa or egl")
+        ->check(CLI::IsMember({"window", "osmesa", "egl"}))
+        ->type_name("KIND");
+    app.add_option("--size", size, "pixels of the frame, 640x480 unless given")->type_name("WxH");
+    app.add_option("--frame", frame, "which frame, at N/60 s; the first is 1, the default 60")
+        ->type_name("N");
+    app.add_option("--frames", frames, "several frames, every STEP-th")->type_name("A..B[:STEP]");
+    app.add_option("--preset", options.request.preset, "a named set of settings: seed (the default), ...")
+        ->type_name("NAME");
+    app.add_option("--set", options.request.sets, "one setting; may be repeated")
+        ->type_name("KEY=VALUE")
+        ->take_all()
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    app.add_option("--out", options.request.out,
+                   "the file to write: .png as a display shows it, .exr or .hdr linear float")
+        ->type_name("FILE");
+    app.add_option("--target", options.request.target,
+                   "write this target (as it is at the end) or this pass's (right after it) instead")
+        ->type_name("NAME");
+    app.add_flag("--settings", options.list_settings, "list settings, presets, targets and passes");
+    app.add_option("--batch", batch, "many frames in one process: a JSON object a line, keys as the options")
+        ->type_name("FILE");
+    app.add_flag("--cost", options.request.cost, "measure every pass: instructions, copies (cu), bytes, ms");
+    app.add_option("--counter", counter,
+                   "what --cost counts with: auto, perf (hardware instructions), callgrind (exact,\n"
+                   "slow, needs valgrind), cpu (time) or gpu (timer queries)")
+        ->check(CLI::IsMember({"auto", "perf", "callgrind", "cpu", "gpu"}))
+        ->type_name("KIND");
+    app.add_flag("--json", options.json, "with --settings or --cost: print JSON");
+    if (info.takes_files) {
+        app.add_option("--mesh", options.files.mesh, "your own model: .obj, .gltf or .glb")
+            ->type_name("FILE");
+        app.add_option("--floor", options.files.floor, "your own floor material: .mtl")->type_name("FILE");
+        app.add_option("--environment", options.files.environment, "your own sky: .hdr or .exr")
+            ->type_name("FILE");
+    }
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) {
+            app.exit(error);
+            return std::nullopt;
+        }
+        throw UsageError(std::string(error.what()) + "; --help lists the options");
+    }
+
+    if (!size.empty()) options.request.size = parseSize(size);
+    if (!frame.empty() && !frames.empty()) throw UsageError("--frame and --frames exclude each other");
+    if (!frame.empty())
+        options.request.first_frame = options.request.last_frame =
+            parseInteger(frame, 1, max_frame, "--frame");
+    if (!frames.empty()) parseFrames(frames, options.request);
+    options.counter = counterKind(counter);
+
+    const bool needs_headless = !options.request.out.empty() || !frames.empty() ||
+                                !options.request.target.empty() || !batch.empty() || options.request.cost;
+    if (!context.empty())
+        options.context = contextKind(context);
+    else if (headless || needs_headless)
+        options.context = ContextKind::headless;
+    if (headless && options.context == ContextKind::window)
+        throw UsageError("--headless and --context window exclude each other");
+    if (options.context == ContextKind::window && needs_headless)
+        throw UsageError("--context window writes and measures nothing: leave it out, or use osmesa or egl");
+    if (options.context != ContextKind::window && options.request.out.empty() && !options.request.cost &&
+        batch.empty())
+        options.request.out = info.name + (frames.empty() ? ".png" : "_%04d.png");
+    if (options.context == ContextKind::window && frame.empty())
+        options.request.first_frame = options.request.last_frame = 1; // a window begins at the beginning
+    checkRequest(options.request);
+    checkSettings(options.request, settings);
+    options.is_batch = !batch.empty();
+    if (options.is_batch) options.batch = readBatch(batch, options.request, settings);
+    return options;
+}
+
+} // namespace gll

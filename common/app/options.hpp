@@ -1,0 +1,57 @@
+// The command line every rung has: parsing it, and the files of --batch, whose keys are the same options.
+#pragma once
+
+#include "app/rung.hpp"
+
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gll {
+
+enum class ContextKind {
+    window,
+    headless,
+    osmesa,
+    egl
+}; // headless: OSMesa, or EGL where that is not installed
+enum class CounterKind { automatic, perf, callgrind, cpu, gpu };
+
+// One frame, or a run of them, and what is to come of it.
+struct FrameRequest {
+    glm::ivec2 size{640, 480};
+    int first_frame = 60;
+    int last_frame = 60;
+    int step = 1;
+    std::string preset = "seed";
+    std::vector<std::string> sets; // KEY=VALUE, applied over the preset in order
+    std::filesystem::path out;     // empty: nothing is written; with a %d where there are several frames
+    std::string target;            // empty: the presented frame; a target's name, or a pass's
+    bool cost = false;
+
+    bool isSequence() const { return first_frame != last_frame; }
+    std::filesystem::path outFor(int frame) const; // out with its %d filled in
+};
+
+struct Options {
+    ContextKind context = ContextKind::window;
+    CounterKind counter = CounterKind::automatic;
+    FrameRequest request;
+    std::vector<FrameRequest> batch; // in place of request, where --batch was given
+    bool is_batch = false;
+    bool list_settings = false;
+    bool json = false;
+    RungFiles files;
+};
+
+// Parses a command line. Returns nothing where --help or --version was asked for and printed. Throws
+// UsageError for what is wrong with the command line or the batch file ("FILE:line: what"),
+// std::runtime_error where the batch file cannot be read.
+std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info, const Settings& settings);
+
+// A size such as "640x480": both sides 1 to 16384, at most 64 Mi pixels. Throws UsageError.
+glm::ivec2 parseSize(const std::string& text);
+
+} // namespace gll

@@ -1,0 +1,68 @@
+// What a rung is to the programs that run it: a name, settings, and frames rendered on demand.
+#pragma once
+
+#include "app/context.hpp"
+#include "app/frame.hpp"
+#include "app/resources.hpp"
+#include "app/settings.hpp"
+
+#include <functional>
+#include <memory>
+
+namespace gll {
+
+// Files a person gives in place of the rung's own; empty: the rung's own.
+struct RungFiles {
+    std::filesystem::path mesh;        // --mesh
+    std::filesystem::path floor;       // --floor
+    std::filesystem::path environment; // --environment
+};
+
+// What a rung is made from, once there is an OpenGL context.
+struct RungResources {
+    ShaderLibrary& shaders;
+    const Resources& files;
+    RungFiles given;
+};
+
+class Rung {
+  public:
+    virtual ~Rung() = default;
+
+    // Draws the frame, the last pass into frame.presented(). The picture depends on nothing but the settings,
+    // the frame's size and its number.
+    virtual void render(Frame& frame) = 0;
+};
+
+struct RungInfo {
+    std::string name;         // "05_hdr_bloom"
+    std::string summary;      // one line
+    bool takes_files = false; // whether --mesh, --floor and --environment mean anything to it
+    std::function<std::unique_ptr<Rung>(RungResources)> make = {};
+};
+
+// A rung in a context, ready to render. The context must stay current as long as the renderer lives.
+class Renderer {
+  public:
+    Renderer(Context& context, const RungInfo& info, const RungFiles& given);
+
+    // Renders frame number (from 1) at size (pixels, both at least 1) with the present settings. Throws
+    // std::runtime_error on any OpenGL error. What it returns is valid until the next call.
+    const std::vector<DrawnPass>& render(int number, glm::ivec2 size, PassObserver* observer = nullptr);
+
+    const Framebuffer& presented() const { return presented_; }
+    const Mesh& fullScreenTriangle() const { return triangle_; }
+    ShaderLibrary& shaders() { return shaders_; }
+    Context& context() { return context_; }
+
+  private:
+    Context& context_;
+    Resources resources_;
+    ShaderLibrary shaders_;
+    Mesh triangle_ = Mesh::fullScreenTriangle();
+    Framebuffer presented_{{{.name = "frame", .format = Format::rgba8}}, {1, 1}};
+    std::unique_ptr<Rung> rung_;
+    std::vector<DrawnPass> passes_;
+};
+
+} // namespace gll

@@ -1,0 +1,115 @@
+// A rung's settings. Each is declared once: its name, range or choices, default and a line of help. That one
+// declaration serves the command line, the window's panel, --settings, the charts and the tests.
+#pragma once
+
+#include "gl/program.hpp" // Defines
+
+#include <deque>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace gll {
+
+struct Setting {
+    enum class Kind { number, integer, toggle, choice };
+
+    std::string name;
+    std::string help; // one line, with the unit
+    Kind kind = Kind::number;
+    double default_value = 0; // a toggle's is 0 or 1, a choice's the index among choices
+    double min = 0;
+    double max = 0;
+    std::vector<std::string> choices = {};
+    double value = 0;
+
+    // As the command line spells it: "0.6", "5", "on", "aces_narkowicz".
+    std::string text() const;
+};
+
+// Handles a rung keeps for reading its settings; valid as long as the Settings they came from.
+class Number {
+  public:
+    explicit Number(const Setting& setting) : setting_(&setting) {}
+    operator float() const { return static_cast<float>(setting_->value); }
+
+  private:
+    const Setting* setting_;
+};
+
+class Integer {
+  public:
+    explicit Integer(const Setting& setting) : setting_(&setting) {}
+    operator int() const { return static_cast<int>(setting_->value); }
+
+  private:
+    const Setting* setting_;
+};
+
+class Toggle {
+  public:
+    explicit Toggle(const Setting& setting) : setting_(&setting) {}
+    operator bool() const { return setting_->value != 0; }
+
+  private:
+    const Setting* setting_;
+};
+
+class Choice {
+  public:
+    explicit Choice(const Setting& setting) : setting_(&setting) {}
+    bool operator==(std::string_view choice) const { return name() == choice; }
+    const std::string& name() const { return setting_->choices[static_cast<std::size_t>(setting_->value)]; }
+
+    // For shader variants: "NAME_CHOICE n" for every choice, in capitals, and "NAME n" for the present one,
+    // so that the shader reads #if DOWN_FILTER == DOWN_FILTER_BOX and the list stands in one place.
+    Defines defines() const;
+
+  private:
+    const Setting* setting_;
+};
+
+class Settings {
+  public:
+    Settings() = default;
+    Settings(const Settings&) = delete; // handles point into it
+    Settings& operator=(const Settings&) = delete;
+
+    // Declarations. Numbers are finite; ranges include both ends.
+    Number number(std::string name, double default_value, double min, double max, std::string help);
+    Integer integer(std::string name, int default_value, int min, int max, std::string help);
+    Toggle toggle(std::string name, bool default_value, std::string help);
+    Choice choice(std::string name, std::string_view default_value, std::vector<std::string> choices,
+                  std::string help);
+
+    // A named set of values over the defaults. "seed", the defaults themselves, always exists.
+    struct Preset {
+        std::string name;
+        std::string help;
+        std::vector<std::pair<std::string, std::string>> values;
+    };
+    void preset(Preset preset);
+
+    // Throws UsageError naming the setting, the value, and what is allowed.
+    void set(std::string_view name, std::string_view value);
+    void set(std::string_view key_equals_value);
+    void applyPreset(std::string_view name); // resets everything else to its default
+    void reset();
+
+    const std::deque<Setting>& all() const { return settings_; }
+    std::deque<Setting>& all() { return settings_; }
+    const std::vector<Preset>& presets() const { return presets_; }
+
+    // "--set KEY=VALUE" for every setting that differs from its default, separated by spaces.
+    std::string commandLine() const;
+
+  private:
+    Setting& add(Setting setting);
+    Setting& find(std::string_view name);
+
+    std::deque<Setting> settings_; // a deque, so that handles stay valid while more are declared
+    std::vector<Preset> presets_{{"seed", "the original tutorial's numbers", {}}};
+};
+
+} // namespace gll

@@ -1,0 +1,132 @@
+// Binding everything one pass needs, drawing it, and counting its bytes.
+#include "gl/pass.hpp"
+
+#include <set>
+#include <stdexcept>
+
+namespace gll {
+namespace {
+
+void enable(GLenum capability, bool on) { on ? glEnable(capability) : glDisable(capability); }
+
+void setState(const Framebuffer& target, const Pass& pass) {
+    glBindFramebuffer(GL_FRAMEBUFFER, target.id());
+    glViewport(0, 0, target.size().x, target.size().y);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+    enable(GL_SCISSOR_TEST, false);
+    enable(GL_STENCIL_TEST, false);
+    enable(GL_MULTISAMPLE, false);
+    enable(GL_FRAMEBUFFER_SRGB, pass.srgb_encode);
+    enable(GL_DEPTH_TEST, pass.depth_test != DepthTest::off);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(pass.depth_test == DepthTest::less_equal ? GL_LEQUAL : GL_LESS);
+    enable(GL_CULL_FACE, pass.cull != Cull::none);
+    glCullFace(GL_BACK);
+    glFrontFace(GL_CCW);
+    enable(GL_BLEND, pass.blend != Blend::replace);
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFunc(GL_ONE, GL_ONE);
+    enable(GL_POLYGON_OFFSET_FILL, pass.polygon_offset.has_value());
+    if (pass.polygon_offset) glPolygonOffset(pass.polygon_offset->x, pass.polygon_offset->y);
+}
+
+// Clears after the state is set: masks apply to clears, and the sRGB switch too.
+void clear(const Framebuffer& target, const Pass& pass) {
+    if (pass.clear_color)
+        for (int i = 0; i < target.colorCount(); ++i)
+            glClearBufferfv(GL_COLOR, i, &pass.clear_color->x);
+    if (pass.clear_depth) glClearBufferfv(GL_DEPTH, 0, &*pass.clear_depth);
+}
+
+// Sets inputs and uniforms of a program and remembers which were given.
+class Bindings {
+  public:
+    explicit Bindings(const Program& program) : program_(program) {}
+
+    void set(const std::vector<Input>& inputs, const std::vector<UniformSetting>& uniforms) {
+        for (const Input& input : inputs) {
+            const int unit = static_cast<int>(units_.try_emplace(input.sampler, units_.size()).first->second);
+            glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
+            glBindTexture(GL_TEXTURE_2D, input.texture.id());
+            program_.set(input.sampler, unit);
+            given_.insert(input.sampler);
+        }
+        for (const UniformSetting& uniform : uniforms) {
+            program_.set(uniform.name, uniform.value);
+            given_.insert(uniform.name);
+        }
+    }
+
+    void requireAll() const {
+        for (const auto& [name, uniform] : program_.uniforms())
+            if (!given_.contains(name))
+                throw std::invalid_argument(program_.name() + ": uniform " + name + " was not set");
+    }
+
+    void unbind() const {
+        for (std::size_t unit = 0; unit < units_.size(); ++unit) {
+            glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
+            glBindTexture(GL_TEXTURE_2D, 0);
+        }
+        glActiveTexture(GL_TEXTURE0);
+    }
+
+  private:
+    const Program& program_;
+    std::map<std::string, std::size_t> units_;
+    std::set<std::string> given_;
+};
+
+void drawAll(const Pass& pass, const Mesh& full_screen_triangle) {
+    glUseProgram(pass.program.id());
+    Bindings bindings(pass.program);
+    bindings.set(pass.inputs, pass.uniforms);
+    if (pass.draws.empty()) {
+        bindings.requireAll();
+        (pass.mesh != nullptr ? *pass.mesh : full_screen_triangle).draw(pass.instances);
+    }
+    for (const Draw& draw : pass.draws) {
+        bindings.set(draw.inputs, draw.uniforms);
+        bindings.requireAll();
+        draw.mesh.draw(1, draw.first_index, draw.index_count);
+    }
+    bindings.unbind();
+    glUseProgram(0);
+}
+
+} // namespace
+
+void drawPass(const std::string& name, const Framebuffer& target, const Pass& pass,
+              const Mesh& full_screen_triangle) {
+    if (GLAD_GL_KHR_debug) glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, name.c_str());
+    setState(target, pass);
+    clear(target, pass);
+    drawAll(pass, full_screen_triangle);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    if (GLAD_GL_KHR_debug) glPopDebugGroup();
+}
+
+double bytesPerPixel(const Framebuffer& target, const Pass& pass) {
+    const auto area = [](glm::ivec2 size) { return double(size.x) * double(size.y); };
+    double bytes = 0;
+    for (const Attachment& attachment : target.attachments()) {
+        const FormatInfo info = formatInfo(attachment.format);
+        const bool touched = !info.is_depth || pass.depth_test != DepthTest::off;
+        const bool also_read = info.is_depth || pass.blend != Blend::replace;
+        if (touched) bytes += info.bytes * (also_read ? 2 : 1);
+    }
+    std::set<GLuint> counted;
+    const auto addInputs = [&](const std::vector<Input>& inputs) {
+        for (const Input& input : inputs)
+            if (counted.insert(input.texture.id()).second)
+                bytes += formatInfo(input.texture.format()).bytes * area(input.texture.size()) /
+                         area(target.size());
+    };
+    addInputs(pass.inputs);
+    for (const Draw& draw : pass.draws)
+        addInputs(draw.inputs);
+    return bytes;
+}
+
+} // namespace gll

@@ -1,0 +1,65 @@
+// One pass of a frame said in one statement: what is drawn, with which program, inputs and state.
+// Nothing is inherited from the pass before and nothing is left for the next.
+#pragma once
+
+#include "gl/framebuffer.hpp"
+#include "gl/mesh.hpp"
+#include "gl/program.hpp"
+
+#include <optional>
+
+namespace gll {
+
+// A sampler uniform and the texture it reads.
+struct Input {
+    std::string sampler;
+    const Texture& texture;
+};
+
+struct UniformSetting {
+    std::string name;
+    UniformValue value;
+};
+
+enum class DepthTest { off, less, less_equal }; // on: depth is also written
+enum class Cull { none, back };
+enum class Blend { replace, add }; // add: destination + source (ONE, ONE)
+
+// One draw call of a pass that has several: its mesh (or a part of it) and what it adds to the pass's own
+// inputs and uniforms.
+struct Draw {
+    const Mesh& mesh;
+    std::vector<Input> inputs = {};
+    std::vector<UniformSetting> uniforms = {};
+    std::uint32_t first_index = 0;
+    std::uint32_t index_count = 0; // 0: to the end of the mesh
+};
+
+struct Pass {
+    const Program& program;
+    std::vector<Input> inputs = {};
+    std::vector<UniformSetting> uniforms = {};
+    const Mesh* mesh = nullptr; // null, and no draws: the screen-covering triangle
+    int instances = 1;
+    std::vector<Draw> draws = {}; // in place of mesh, where a pass draws several
+    DepthTest depth_test = DepthTest::off;
+    Cull cull = Cull::none;
+    Blend blend = Blend::replace;
+    bool srgb_encode = false; // sRGB attachments encode what the shader writes
+    std::optional<glm::vec2> polygon_offset =
+        {};                                    // slope factor and constant units, as glPolygonOffset has them
+    std::optional<glm::vec4> clear_color = {}; // every colour attachment, before drawing
+    std::optional<float> clear_depth = {};
+};
+
+// Draws the pass into the target. full_screen_triangle serves a pass without a mesh. Throws
+// std::invalid_argument where a uniform or sampler of the program is not given, is given twice with another
+// type, or is unknown.
+void drawPass(const std::string& name, const Framebuffer& target, const Pass& pass,
+              const Mesh& full_screen_triangle);
+
+// Bytes the pass must at least move for each pixel of its target, from the declared formats: every attachment
+// written once (and read once where it is blended or depth-tested), every input texture read once.
+double bytesPerPixel(const Framebuffer& target, const Pass& pass);
+
+} // namespace gll

@@ -1,0 +1,102 @@
+// Texture allocation, upload and sampling state.
+#include "gl/texture.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <stdexcept>
+#include <string>
+
+namespace gll {
+namespace {
+
+GLint wrapMode(Wrap wrap) {
+    switch (wrap) {
+    case Wrap::repeat:
+        return GL_REPEAT;
+    case Wrap::border_one:
+        return GL_CLAMP_TO_BORDER;
+    case Wrap::clamp_to_edge:
+        break;
+    }
+    return GL_CLAMP_TO_EDGE;
+}
+
+} // namespace
+
+int levelCount(glm::ivec2 size) {
+    return static_cast<int>(std::bit_width(static_cast<unsigned>(std::max({size.x, size.y, 1}))));
+}
+
+Texture::Texture(const TextureDescription& description) : description_(description) {
+    const FormatInfo info = formatInfo(description.format);
+    allocate(info.layout, info.type, nullptr);
+}
+
+Texture::Texture(const TextureDescription& description, std::span<const std::uint8_t> pixels)
+    : description_(description) {
+    upload(pixels.size(), GL_UNSIGNED_BYTE, pixels.data());
+}
+
+Texture::Texture(const TextureDescription& description, std::span<const float> pixels)
+    : description_(description) {
+    upload(pixels.size(), GL_FLOAT, pixels.data());
+}
+
+void Texture::upload(std::size_t count, GLenum type, const void* pixels) {
+    constexpr GLenum layouts[] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
+    const auto texels =
+        static_cast<std::size_t>(description_.size.x) * static_cast<std::size_t>(description_.size.y);
+    const std::size_t channels = texels == 0 ? 0 : count / texels;
+    if (channels < 1 || channels > 4 || channels * texels != count)
+        throw std::invalid_argument("texture: " + std::to_string(count) + " values do not fill " +
+                                    std::to_string(texels) + " texels of 1 to 4 channels");
+    allocate(layouts[channels - 1], type, pixels);
+    if (description_.levels > 1) generateMipmaps();
+}
+
+void Texture::allocate(GLenum layout, GLenum type, const void* pixels) {
+    const FormatInfo info = formatInfo(description_.format);
+    const glm::ivec2 size = description_.size;
+    GLint largest = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+    if (size.x < 1 || size.y < 1 || size.x > largest || size.y > largest)
+        throw std::runtime_error("texture: " + std::to_string(size.x) + "x" + std::to_string(size.y) +
+                                 " is outside 1x1 to " + std::to_string(largest) + "x" +
+                                 std::to_string(largest));
+    GLuint id = 0;
+    glGenTextures(1, &id);
+    handle_ = Handle<destroy>(id);
+    glBindTexture(GL_TEXTURE_2D, id);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    for (int level = 0; level < description_.levels; ++level)
+        glTexImage2D(GL_TEXTURE_2D, level, static_cast<GLint>(info.internal), std::max(size.x >> level, 1),
+                     std::max(size.y >> level, 1), 0, layout, type, level == 0 ? pixels : nullptr);
+
+    const bool nearest = description_.filter == Filter::nearest;
+    const bool mipmapped = description_.filter == Filter::trilinear;
+    const auto set = [](GLenum name, GLint value) { glTexParameteri(GL_TEXTURE_2D, name, value); };
+    set(GL_TEXTURE_MAX_LEVEL, description_.levels - 1);
+    set(GL_TEXTURE_MAG_FILTER, nearest ? GL_NEAREST : GL_LINEAR);
+    set(GL_TEXTURE_MIN_FILTER, nearest ? GL_NEAREST : mipmapped ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
+    set(GL_TEXTURE_WRAP_S, wrapMode(description_.wrap_x));
+    set(GL_TEXTURE_WRAP_T, wrapMode(description_.wrap_y));
+    if (description_.wrap_x == Wrap::border_one || description_.wrap_y == Wrap::border_one) {
+        constexpr GLfloat ones[] = {1, 1, 1, 1};
+        glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, ones);
+    }
+    if (description_.compare_depth) {
+        set(GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+        set(GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    }
+    if (description_.anisotropy > 1.0F && GLAD_GL_EXT_texture_filter_anisotropic)
+        glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_MAX_ANISOTROPY_EXT, description_.anisotropy);
+    glBindTexture(GL_TEXTURE_2D, 0);
+}
+
+void Texture::generateMipmaps() const {
+    glBindTexture(GL_TEXTURE_2D, id());
+    glGenerateMipmap(GL_TEXTURE_2D);
+    glBindTexture(GL_TEXTURE_2D, 0);
+}
+
+} // namespace gll

@@ -1,0 +1,58 @@
+// A two-dimensional texture with its sampling state.
+#pragma once
+
+#include "gl/format.hpp"
+#include "gl/handle.hpp"
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <span>
+
+namespace gll {
+
+enum class Filter { nearest, linear, trilinear };      // trilinear: linear within and between mip levels
+enum class Wrap { clamp_to_edge, repeat, border_one }; // border_one: outside reads 1 (for depth: "farthest")
+
+struct TextureDescription {
+    glm::ivec2 size{1, 1}; // texels, both at least 1
+    Format format = Format::rgba8;
+    Filter filter = Filter::linear;
+    Wrap wrap_x = Wrap::clamp_to_edge;
+    Wrap wrap_y = Wrap::clamp_to_edge;
+    int levels = 1;             // mip levels allocated; levelCount(size) for all of them
+    bool compare_depth = false; // sampled as sampler2DShadow: reference <= stored gives 1
+    float anisotropy = 1.0F;    // above 1 where GL_EXT_texture_filter_anisotropic is offered, else ignored
+};
+
+// How many mip levels a texture of this size has down to 1x1: floor(log2(longest side)) + 1.
+int levelCount(glm::ivec2 size);
+
+class Texture {
+  public:
+    Texture() = default; // no texture: id() is 0
+    explicit Texture(const TextureDescription& description);
+    // Level 0 from pixels, bottom row first, as many channels as pixels.size() / texels says (1 to 4);
+    // further levels, where described, are generated. Throws std::invalid_argument where the count does not
+    // divide.
+    Texture(const TextureDescription& description, std::span<const std::uint8_t> pixels);
+    Texture(const TextureDescription& description, std::span<const float> pixels);
+
+    GLuint id() const { return handle_.id(); }
+    glm::ivec2 size() const { return description_.size; }
+    Format format() const { return description_.format; }
+    const TextureDescription& description() const { return description_; }
+
+    // Fills levels 1 and up from level 0 by the driver's filter. For frames that must be right at sizes other
+    // than powers of two, reduce by a pass instead.
+    void generateMipmaps() const;
+
+  private:
+    static void destroy(GLuint id) { glDeleteTextures(1, &id); }
+    void allocate(GLenum layout, GLenum type, const void* pixels);
+    void upload(std::size_t count, GLenum type, const void* pixels);
+
+    TextureDescription description_;
+    Handle<destroy> handle_;
+};
+
+} // namespace gll

@@ -1,0 +1,47 @@
+// Choosing between window and headless, and turning errors into one line and an exit code.
+#include "run/run.hpp"
+
+#include "app/cost.hpp"
+#include "app/headless.hpp"
+#include "app/options.hpp"
+#include "app/usage_error.hpp"
+#include "window/window.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace gll {
+namespace {
+
+int report(const RungInfo& info, std::string message, int exit_code) {
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    std::fprintf(stderr, "%s: error: %s\n", info.name.c_str(), message.c_str());
+    return exit_code;
+}
+
+bool measures(const Options& options) {
+    if (!options.is_batch) return options.request.cost;
+    return std::any_of(options.batch.begin(), options.batch.end(),
+                       [](const FrameRequest& request) { return request.cost; });
+}
+
+} // namespace
+
+int runRung(int argc, char** argv, const RungInfo& info, Settings& settings) {
+    try {
+        const std::optional<Options> options = parseOptions(argc, argv, info, settings);
+        if (!options) return 0;
+        if (options->list_settings) return listSettings(*options, info, settings);
+        if (options->context == ContextKind::window) return runWindow(*options, info, settings);
+        if (measures(*options)) prepareCost(options->counter, argv);
+        return runHeadless(*options, info, settings);
+    } catch (const UsageError& error) {
+        return report(info, error.what(), 2);
+    } catch (const std::bad_alloc&) {
+        return report(info, "out of memory; ask for a smaller --size or fewer instances", 1);
+    } catch (const std::exception& error) {
+        return report(info, error.what(), 1);
+    }
+}
+
+} // namespace gll

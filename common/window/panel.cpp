@@ -1,0 +1,135 @@
+// The panel, in Dear ImGui.
+#include "window/panel.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <algorithm>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+namespace gll {
+namespace {
+
+void numberWidget(Setting& setting) {
+    // Ranges over several decades are dragged on a logarithmic scale.
+    const bool wide = setting.min >= 0 && setting.max > 1000 * std::max(setting.min, 1e-2);
+    const ImGuiSliderFlags flags =
+        ImGuiSliderFlags_AlwaysClamp | (wide ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+    if (setting.kind == Setting::Kind::integer) {
+        int value = static_cast<int>(setting.value);
+        if (ImGui::SliderInt(setting.name.c_str(), &value, static_cast<int>(setting.min),
+                             static_cast<int>(setting.max), "%d", flags))
+            setting.value = value;
+        return;
+    }
+    auto value = static_cast<float>(setting.value);
+    if (ImGui::SliderFloat(setting.name.c_str(), &value, static_cast<float>(setting.min),
+                           static_cast<float>(setting.max), "%.3g", flags))
+        setting.value = std::clamp(static_cast<double>(value), setting.min, setting.max);
+}
+
+void widget(Setting& setting) {
+    switch (setting.kind) {
+    case Setting::Kind::toggle: {
+        bool on = setting.value != 0;
+        if (ImGui::Checkbox(setting.name.c_str(), &on)) setting.value = on ? 1 : 0;
+        break;
+    }
+    case Setting::Kind::choice:
+        if (ImGui::BeginCombo(setting.name.c_str(), setting.text().c_str())) {
+            for (std::size_t i = 0; i < setting.choices.size(); ++i)
+                if (ImGui::Selectable(setting.choices[i].c_str(), static_cast<double>(i) == setting.value))
+                    setting.value = static_cast<double>(i);
+            ImGui::EndCombo();
+        }
+        break;
+    case Setting::Kind::number:
+    case Setting::Kind::integer:
+        numberWidget(setting);
+        break;
+    }
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", setting.help.c_str());
+}
+
+void settingsSection(Settings& settings) {
+    if (ImGui::Button("reset")) settings.reset();
+    for (const Settings::Preset& preset : settings.presets()) {
+        ImGui::SameLine();
+        if (ImGui::Button(preset.name.c_str())) settings.applyPreset(preset.name);
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", preset.help.c_str());
+    }
+    for (Setting& setting : settings.all())
+        widget(setting);
+}
+
+void keysSection() {
+    for (const char* line : {"Space   pause, go on", ". ,     one frame on, back", "drag    orbit",
+                             "wheel   zoom", "R       the scripted camera", "P       write this frame",
+                             "H       hide the panel", "Esc     quit"})
+        ImGui::TextUnformatted(line);
+}
+
+} // namespace
+
+Panel::Panel(GLFWwindow* window) {
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr; // no file is left where the program happens to be run
+    float scale_y = 1;
+    glfwGetWindowContentScale(window, &scale_, &scale_y);
+    scale_ = std::clamp(scale_, 1.0F, 4.0F);
+    ImFontConfig font;
+    font.SizePixels = 13 * scale_;
+    io.Fonts->AddFontDefault(&font);
+    ImGui::StyleColorsDark();
+    ImGui::GetStyle().ScaleAllSizes(scale_);
+    ImGui_ImplGlfw_InitForOpenGL(window, true);
+    ImGui_ImplOpenGL3_Init("#version 330 core");
+}
+
+Panel::~Panel() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+}
+
+bool Panel::hasMouse() const { return ImGui::GetIO().WantCaptureMouse; }
+bool Panel::hasKeyboard() const { return ImGui::GetIO().WantTextInput; }
+
+void Panel::draw(Settings& settings, const PanelState& state) {
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+    if (visible) {
+        const ImVec2 display = ImGui::GetIO().DisplaySize;
+        const float widest = std::max(display.x - 16, 1.0F);
+        const float highest = std::max(display.y - 16, 1.0F);
+        ImGui::SetNextWindowPos({8, 8}, ImGuiCond_FirstUseEver);
+        ImGui::SetNextWindowSizeConstraints({std::min(200 * scale_, widest), 0}, {widest, highest});
+        ImGui::SetNextWindowBgAlpha(0.72F);
+        ImGui::Begin("settings (H hides)", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
+        ImGui::PushItemWidth(110 * scale_);
+        ImGui::Text("frame %d%s, %.2f ms", state.frame, state.paused ? " (paused)" : "", state.frame_time_ms);
+        if (!state.message.empty()) {
+            ImGui::PushTextWrapPos(230 * scale_);
+            ImGui::TextUnformatted(state.message.c_str());
+            ImGui::PopTextWrapPos();
+        }
+        if (ImGui::CollapsingHeader("settings", ImGuiTreeNodeFlags_DefaultOpen)) settingsSection(settings);
+        pass_times_open_ = ImGui::CollapsingHeader("pass times");
+        if (pass_times_open_) {
+            for (const PassTime& pass : state.pass_times)
+                ImGui::Text("%-12s %8.3f ms", pass.name.c_str(), pass.time_ms);
+            ImGui::TextUnformatted(state.renderer.c_str());
+        }
+        if (ImGui::CollapsingHeader("keys")) keysSection();
+        ImGui::PopItemWidth();
+        ImGui::End();
+    }
+    ImGui::Render();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+} // namespace gll

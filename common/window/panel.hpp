@@ -1,0 +1,51 @@
+// The panel over the picture: every setting, presets, reset, times and keys, made from the settings'
+// declarations.
+#pragma once
+
+#include "app/settings.hpp"
+
+#include <string>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace gll {
+
+struct PassTime {
+    std::string name;
+    double time_ms = 0;
+};
+
+// What the panel shows beside the settings.
+struct PanelState {
+    std::string renderer;
+    int frame = 0; // 0: nothing rendered yet
+    bool paused = false;
+    double frame_time_ms = 0;         // of drawing, not of waiting for the display
+    std::vector<PassTime> pass_times; // empty until asked for
+    std::string message;              // the last thing that happened, such as a file written
+};
+
+class Panel {
+  public:
+    // Made after the window's own callbacks are set, which Dear ImGui then passes events on to.
+    explicit Panel(GLFWwindow* window);
+    ~Panel();
+    Panel(const Panel&) = delete;
+    Panel& operator=(const Panel&) = delete;
+
+    // Draws over the default framebuffer, which must be bound. Changes settings as the person does.
+    void draw(Settings& settings, const PanelState& state);
+
+    bool visible = true;
+    bool wantsPassTimes() const { return visible && pass_times_open_; }
+    // Whether the mouse or keyboard is busy in the panel, so that they mean nothing to the scene.
+    bool hasMouse() const;
+    bool hasKeyboard() const;
+
+  private:
+    bool pass_times_open_ = false;
+    float scale_ = 1; // pixels per unit: 2 on most HiDPI displays
+};
+
+} // namespace gll

@@ -1,0 +1,327 @@
+// The window by GLFW: clock, keys, mouse, presenting and saving frames.
+#include "window/window.hpp"
+
+#include "app/capture.hpp"
+#include "window/panel.hpp"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+namespace gll {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::string glfwReason() {
+    const char* text = nullptr;
+    glfwGetError(&text);
+    return text == nullptr ? "no reason given" : text;
+}
+
+std::runtime_error noWindow() {
+    return std::runtime_error("no window can be opened here (" + glfwReason() +
+                              "); run with --headless to render to a file instead");
+}
+
+struct GlfwLibrary {
+    GlfwLibrary() {
+        if (glfwInit() != GLFW_TRUE) throw noWindow();
+    }
+    ~GlfwLibrary() { glfwTerminate(); }
+    GlfwLibrary(const GlfwLibrary&) = delete;
+    GlfwLibrary& operator=(const GlfwLibrary&) = delete;
+};
+
+class WindowContext final : public Context {
+  public:
+    WindowContext(const std::string& title, glm::ivec2 size) {
+        glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+        glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+        glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+        glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+        window_ = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
+        if (window_ == nullptr) throw noWindow();
+        glfwMakeContextCurrent(window_);
+        glfwSwapInterval(1);
+        try {
+            load(glfwGetProcAddress);
+        } catch (...) {
+            glfwDestroyWindow(window_);
+            throw;
+        }
+    }
+    ~WindowContext() override { glfwDestroyWindow(window_); }
+    const char* kind() const override { return "window"; }
+    GLFWwindow* window() const { return window_; }
+
+  private:
+    GLFWwindow* window_ = nullptr;
+};
+
+// Frame numbers by the wall clock, 60 a second, from where they were last set; or standing still.
+class FrameClock {
+  public:
+    explicit FrameClock(int first_frame) : base_(first_frame) {}
+
+    int frame() const {
+        const double elapsed_s = paused_ ? 0 : secondsSince(start_);
+        return static_cast<int>(
+            std::min<double>(base_ + std::floor(elapsed_s * frames_per_second), max_frame));
+    }
+    bool paused() const { return paused_; }
+    void pause(bool paused) {
+        base_ = frame();
+        start_ = Clock::now();
+        paused_ = paused;
+    }
+    void step(int frames) {
+        pause(true);
+        base_ = std::clamp(base_ + frames, 1, max_frame);
+    }
+
+  private:
+    int base_;
+    Clock::time_point start_ = Clock::now();
+    bool paused_ = false;
+};
+
+// Times passes: on a GPU by its own clock, read one frame later; in software by waiting for each.
+class PassTimer final : public PassObserver {
+  public:
+    explicit PassTimer(bool software) : software_(software) {}
+    ~PassTimer() override { glDeleteQueries(static_cast<GLsizei>(queries_.size()), queries_.data()); }
+    PassTimer(const PassTimer&) = delete;
+    PassTimer& operator=(const PassTimer&) = delete;
+
+    // Before a frame: the times of the frame before.
+    std::vector<PassTime> begin() {
+        std::vector<PassTime> times = std::move(pending_);
+        pending_.clear();
+        if (!software_)
+            for (std::size_t i = 0; i < times.size(); ++i) {
+                GLuint64 elapsed_ns = 0;
+                glGetQueryObjectui64v(queries_[i], GL_QUERY_RESULT, &elapsed_ns);
+                times[i].time_ms = double(elapsed_ns) * 1e-6;
+            }
+        return times;
+    }
+    void before(const std::string&) override {
+        start_ = Clock::now();
+        if (software_) {
+            glFinish();
+            return;
+        }
+        if (pending_.size() == queries_.size()) {
+            queries_.push_back(0);
+            glGenQueries(1, &queries_.back());
+        }
+        glBeginQuery(GL_TIME_ELAPSED, queries_[pending_.size()]);
+    }
+    void after(const DrawnPass& pass) override {
+        software_ ? glFinish() : glEndQuery(GL_TIME_ELAPSED);
+        pending_.push_back({pass.name, secondsSince(start_) * 1e3});
+    }
+
+  private:
+    bool software_;
+    std::vector<GLuint> queries_;
+    std::vector<PassTime> pending_;
+    Clock::time_point start_;
+};
+
+// The running window: what the callbacks change and the loop reads.
+class RungWindow {
+  public:
+    RungWindow(const Options& options, const RungInfo& info, Settings& settings)
+        : info_(info), settings_(settings), given_(options.files),
+          context_(info.name + " - GL Ladder", options.request.size),
+          renderer_(context_, info, options.files), clock_(options.request.first_frame),
+          timer_(context_.info().is_software) {
+        glfwSetWindowUserPointer(context_.window(), this);
+        glfwSetKeyCallback(context_.window(), onKey);
+        glfwSetCursorPosCallback(context_.window(), onCursor);
+        glfwSetScrollCallback(context_.window(), onScroll);
+        panel_.emplace(context_.window());
+        state_.renderer = context_.info().renderer;
+    }
+
+    void loop() {
+        while (glfwWindowShouldClose(context_.window()) == GLFW_FALSE) {
+            glm::ivec2 size(0);
+            glfwGetFramebufferSize(context_.window(), &size.x, &size.y);
+            if (size.x < 1 || size.y < 1 || glfwGetWindowAttrib(context_.window(), GLFW_ICONIFIED) != 0) {
+                glfwWaitEvents(); // minimised: nothing to draw until it is back
+                continue;
+            }
+            const Clock::time_point start = Clock::now();
+            renderIfChanged(size);
+            present(size);
+            if (save_asked_) save(size);
+            // Where the display does not hold the loop to its rate (no vertical sync, or nothing moves), wait
+            // for events instead of spinning.
+            const double rest_s =
+                (clock_.paused() ? 1.0 / 30 : 1.0 / frames_per_second) - secondsSince(start);
+            if (rest_s > 1e-3)
+                glfwWaitEventsTimeout(rest_s);
+            else
+                glfwPollEvents();
+        }
+    }
+
+  private:
+    static RungWindow& self(GLFWwindow* window) {
+        return *static_cast<RungWindow*>(glfwGetWindowUserPointer(window));
+    }
+
+    static void onKey(GLFWwindow* window, int key, int, int action, int) {
+        RungWindow& that = self(window);
+        if (action == GLFW_RELEASE || that.panel_->hasKeyboard()) return;
+        if (key == GLFW_KEY_PERIOD) that.clock_.step(1);
+        if (key == GLFW_KEY_COMMA) that.clock_.step(-1);
+        if (action == GLFW_REPEAT) return;
+        if (key == GLFW_KEY_SPACE) that.clock_.pause(!that.clock_.paused());
+        if (key == GLFW_KEY_R) that.resetCamera();
+        if (key == GLFW_KEY_P) that.save_asked_ = true;
+        if (key == GLFW_KEY_H) that.panel_->visible = !that.panel_->visible;
+        if (key == GLFW_KEY_ESCAPE) glfwSetWindowShouldClose(window, GLFW_TRUE);
+    }
+
+    static void onCursor(GLFWwindow* window, double x, double y) {
+        RungWindow& that = self(window);
+        const double dx = x - that.cursor_x_;
+        const double dy = y - that.cursor_y_;
+        that.cursor_x_ = x;
+        that.cursor_y_ = y;
+        if (glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_LEFT) != GLFW_PRESS || that.panel_->hasMouse())
+            return;
+        constexpr double degrees_per_unit = 0.4;
+        that.nudge("camera_yaw_deg",
+                   [&](double v) { return std::remainder(v + dx * degrees_per_unit, 360); });
+        that.nudge("camera_pitch_deg", [&](double v) { return v + dy * degrees_per_unit; });
+    }
+
+    static void onScroll(GLFWwindow* window, double, double steps) {
+        RungWindow& that = self(window);
+        if (that.panel_->hasMouse()) return;
+        that.nudge("camera_zoom", [&](double v) { return v * std::pow(1.1, steps); });
+    }
+
+    // Changes a camera setting within its range, to thousandths; rungs without a camera have none.
+    template <class Change>
+    void nudge(const std::string& name, const Change& change) {
+        for (Setting& setting : settings_.all())
+            if (setting.name == name)
+                setting.value =
+                    std::clamp(std::round(change(setting.value) * 1000) / 1000, setting.min, setting.max);
+    }
+
+    void resetCamera() {
+        for (Setting& setting : settings_.all())
+            if (setting.name.starts_with("camera_")) setting.value = setting.default_value;
+    }
+
+    void renderIfChanged(glm::ivec2 size) {
+        const int frame = clock_.frame();
+        const std::string settings_now = settings_.commandLine();
+        const bool times = panel_->wantsPassTimes();
+        if (frame == state_.frame && size == rendered_size_ && settings_now == rendered_settings_ && !times)
+            return;
+        const Clock::time_point start = Clock::now();
+        if (times) state_.pass_times = timer_.begin();
+        renderer_.render(frame, size, times ? &timer_ : nullptr);
+        if (context_.info().is_software) glFinish();
+        state_.frame_time_ms = secondsSince(start) * 1e3;
+        state_.frame = frame;
+        rendered_size_ = size;
+        rendered_settings_ = settings_now;
+    }
+
+    void present(glm::ivec2 size) {
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, renderer_.presented().id());
+        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+        glDisable(GL_FRAMEBUFFER_SRGB); // the frame is encoded already
+        glDisable(GL_SCISSOR_TEST);
+        glBlitFramebuffer(0, 0, size.x, size.y, 0, 0, size.x, size.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        glViewport(0, 0, size.x, size.y);
+        state_.paused = clock_.paused();
+        panel_->draw(settings_, state_);
+        context_.debugLog().check("OpenGL, presenting");
+        glfwSwapBuffers(context_.window());
+    }
+
+    // The present frame into the current folder, and beside it the command line that renders it again.
+    void save(glm::ivec2 size) {
+        save_asked_ = false;
+        const std::string stem = info_.name + "_frame_" + std::to_string(state_.frame);
+        std::filesystem::path path = stem + ".png";
+        for (int i = 2; std::filesystem::exists(path); ++i)
+            path = stem + "_" + std::to_string(i) + ".png";
+        try {
+            Image image = readTexture(renderer_.presented().color());
+            image.colour_space = ColourSpace::srgb;
+            saveImage(path, forFile(image, ".png"));
+            const std::string text_path = path.stem().string() + ".txt";
+            std::ofstream text(text_path);
+            text << commandLine(size, path) << "\n";
+            text.close();
+            if (!text) throw std::runtime_error(text_path + ": cannot be written");
+            state_.message = "wrote " + path.string();
+        } catch (const std::runtime_error& error) {
+            state_.message = error.what(); // a full disk must not end the show
+        }
+        std::printf("%s\n", state_.message.c_str());
+        std::fflush(stdout);
+    }
+
+    std::string commandLine(glm::ivec2 size, const std::filesystem::path& out) const {
+        std::string line = info_.name + " --headless --size " + std::to_string(size.x) + "x" +
+                           std::to_string(size.y) + " --frame " + std::to_string(state_.frame);
+        // What the frame was rendered with: the panel may have changed a setting since.
+        if (!rendered_settings_.empty()) line += " " + rendered_settings_;
+        const auto file = [&](const char* option, const std::filesystem::path& path) {
+            if (!path.empty()) line += std::string(" ") + option + " \"" + path.string() + "\"";
+        };
+        file("--mesh", given_.mesh);
+        file("--floor", given_.floor);
+        file("--environment", given_.environment);
+        return line + " --out " + out.string();
+    }
+
+    const RungInfo& info_;
+    Settings& settings_;
+    RungFiles given_;
+    GlfwLibrary library_;
+    WindowContext context_;
+    Renderer renderer_;
+    FrameClock clock_;
+    PassTimer timer_;
+    std::optional<Panel> panel_;
+    PanelState state_;
+    glm::ivec2 rendered_size_{0};
+    std::string rendered_settings_;
+    bool save_asked_ = false;
+    double cursor_x_ = 0;
+    double cursor_y_ = 0;
+};
+
+} // namespace
+
+int runWindow(const Options& options, const RungInfo& info, Settings& settings) {
+    settings.applyPreset(options.request.preset);
+    for (const std::string& set : options.request.sets)
+        settings.set(set);
+    RungWindow(options, info, settings).loop();
+    return 0;
+}
+
+} // namespace gll

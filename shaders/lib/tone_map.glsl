@@ -1,0 +1,62 @@
+// Tone maps: from linear scene light, [0, infinity), to linear display light, [0, 1]. TONE_MAP chooses one.
+
+// The largest half float: keeps the rational curves finite where a target has overflowed.
+const float tone_map_max = 65504.0;
+
+// L. 10 in Reinhard et al. 2002, "Photographic Tone Reproduction for Digital Images", applied to each channel.
+vec3 toneMapReinhard(vec3 x) { return x / (1.0 + x); }
+
+// The response of film or a cone: saturates, never clips.
+vec3 toneMapExposure(vec3 x) { return 1.0 - exp(-x); }
+
+// Narkowicz 2015, "ACES Filmic Tone Mapping Curve": a rational fit to the ACES RRT + ODT for 100 nit displays.
+vec3 toneMapAcesNarkowicz(vec3 x) {
+    return clamp((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);
+}
+
+// Stephen Hill's fit of the ACES RRT + ODT, in the primaries ACES works in (AP1, desaturated), so that bright
+// colours turn white instead of clipping one channel after the other.
+vec3 toneMapAcesHill(vec3 x) {
+    const mat3 rrt_from_linear = mat3(0.59719, 0.07600, 0.02840, // columns
+                                      0.35458, 0.90834, 0.13383, //
+                                      0.04823, 0.01566, 0.83777);
+    const mat3 linear_from_odt = mat3(1.60475, -0.10208, -0.00327, //
+                                      -0.53108, 1.10813, -0.07276, //
+                                      -0.07367, -0.00605, 1.07602);
+    vec3 v = rrt_from_linear * x;
+    v = (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
+    return clamp(linear_from_odt * v, 0.0, 1.0);
+}
+
+// Khronos PBR Neutral (2024): one to one below 0.8 but for the Fresnel offset, then compresses the peak and moves
+// towards white; hues stay.
+vec3 toneMapPbrNeutral(vec3 x) {
+    const float f90 = 0.04;
+    const float start_compression = 0.8 - f90;
+    const float desaturation = 0.15;
+    float lowest = min(x.r, min(x.g, x.b));
+    x -= lowest < 2.0 * f90 ? lowest - lowest * lowest / (4.0 * f90) : f90;
+    float peak = max(x.r, max(x.g, x.b));
+    if (peak < start_compression) return x;
+    const float d = 1.0 - start_compression;
+    float new_peak = 1.0 - d * d / (peak + d - start_compression);
+    float whiteness = 1.0 - 1.0 / (desaturation * (peak - new_peak) + 1.0);
+    return mix(x * (new_peak / peak), vec3(new_peak), whiteness);
+}
+
+vec3 toneMap(vec3 linear_color) {
+    vec3 x = clamp(linear_color, 0.0, tone_map_max);
+#if TONE_MAP == TONE_MAP_CLAMP
+    return min(x, 1.0);
+#elif TONE_MAP == TONE_MAP_REINHARD
+    return toneMapReinhard(x);
+#elif TONE_MAP == TONE_MAP_EXPOSURE
+    return toneMapExposure(x);
+#elif TONE_MAP == TONE_MAP_ACES_NARKOWICZ
+    return toneMapAcesNarkowicz(x);
+#elif TONE_MAP == TONE_MAP_ACES_HILL
+    return toneMapAcesHill(x);
+#elif TONE_MAP == TONE_MAP_PBR_NEUTRAL
+    return toneMapPbrNeutral(x);
+#endif
+}
