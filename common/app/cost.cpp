@@ -105,7 +105,8 @@ class CallgrindCounter final : public Counter {
     double stop() override {
         glFinish();
         CALLGRIND_DUMP_STATS;
-        const std::string path = file_ + "." + std::to_string(++dumps_);
+        static int dumps = 0; // callgrind numbers its files through the whole process
+        const std::string path = file_ + "." + std::to_string(++dumps);
         std::ifstream stream(path);
         std::string line;
         double total = -1;
@@ -118,7 +119,6 @@ class CallgrindCounter final : public Counter {
 
   private:
     std::string file_;
-    int dumps_ = 0;
 };
 #endif
 
