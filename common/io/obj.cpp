@@ -70,7 +70,7 @@ void forEachStatement(std::string_view text, const std::string& path, const Use&
 float parseNumber(std::string_view word, const std::string& where) {
     double value = 0.0;
     std::string_view digits = word;
-    if (digits.starts_with('+')) digits.remove_prefix(1);
+    if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
     const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (word.empty() || parsed.ec == std::errc::invalid_argument ||
         parsed.ptr != digits.data() + digits.size())
