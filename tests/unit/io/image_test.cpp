@@ -2,6 +2,7 @@
 // Broken files are in tests/hostile.
 #include "io/image.hpp"
 
+#include "png_maker.hpp"
 #include "test_files.hpp"
 
 #include <algorithm>
@@ -67,6 +68,31 @@ TEST(Image, AlphaDoesNotTouchTheColourBesideIt) {
     image.pixels = std::vector<std::uint8_t>{200, 100, 50, 0};
     saveImage(folder.path / "a.png", image);
     EXPECT_EQ(bytes(loadImage(folder.path / "a.png")), bytes(image));
+}
+
+TEST(Image, ASixteenBitPngIsReadAsFloatsOfZeroToOne) {
+    const TestFolder folder;
+    const Image image = loadImage(folder.write("a.png", png(3, 1, 16, 0, "\0\0\0\x33\x33\xff\xff"s)));
+    EXPECT_EQ(image.colour_space, ColourSpace::srgb);
+    EXPECT_EQ(image.channels, 1);
+    EXPECT_EQ(floats(image), (std::vector<float>{0.0f, 0.2f, 1.0f}));
+}
+
+TEST(Image, PalettesAndFewBitsAreExpandedToEight) {
+    const TestFolder folder;
+    const std::string palette = pngChunk("PLTE", "\x0a\x14\x1e\xff\x80\x01");
+    const Image coloured = loadImage(folder.write("a.png", png(3, 1, 8, 3, "\0\1\0\1"s, palette)));
+    EXPECT_EQ(coloured.channels, 3);
+    EXPECT_EQ(bytes(coloured), (std::vector<std::uint8_t>{255, 128, 1, 10, 20, 30, 255, 128, 1}));
+    const Image grey = loadImage(folder.write("b.png", png(4, 1, 2, 0, "\0\x1b"s))); // 0 1 2 3
+    EXPECT_EQ(bytes(grey), (std::vector<std::uint8_t>{0, 85, 170, 255}));
+}
+
+TEST(Image, AGammaChunkDoesNotChangeThePixels) {
+    const TestFolder folder;
+    const std::string gamma = pngChunk("gAMA", bigEndian32(100000));
+    const Image image = loadImage(folder.write("a.png", png(2, 1, 8, 0, "\0\x40\x80"s, gamma)));
+    EXPECT_EQ(bytes(image), (std::vector<std::uint8_t>{64, 128}));
 }
 
 TEST(Image, AFullFloatExrReturnsItsPixelsExactlyWithInfinityAndNan) {
