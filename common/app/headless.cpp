@@ -210,8 +210,8 @@ int listSettings(const Options& options, const RungInfo& info, Settings& setting
     try {
         const auto context = makeHeadlessContext(ContextKind::headless);
         renderer = context->info().renderer + ", " + context->info().version;
-        Renderer renderer(*context, info, options.files);
-        const auto& drawn = renderer.render(1, {64, 64});
+        Renderer small(*context, info, options.files);
+        const auto& drawn = small.render(1, {64, 64});
         targets = targetNames(drawn);
         for (const DrawnPass& pass : drawn)
             passes.push_back(pass.name);
