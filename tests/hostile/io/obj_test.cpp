@@ -84,6 +84,7 @@ TEST(HostileObj, NumbersThatAreNoneNameTheirLine) {
     refuses(folder, "v 0 0 0\r\nv nan 0 0\r\n", {":2: ", "'nan'"});
     refuses(folder, "v 0 0 0\rv 0 -inf 0\r", {":2: ", "'-inf'"});
     refuses(folder, "v 1e39 0 0\n", {":1: ", "'1e39'"});
+    refuses(folder, "v 3.4028236e38 0 0\n", {":1: "});
     refuses(folder, "v 1e999999999999 0 0\n", {":1: "});
     refuses(folder, "v 0e" + std::string(100, '9') + " 0 0\n", {":1: "});
     refuses(folder, "v " + std::string(100000, '1') + " 0 0\n", {":1: ", "'1111"});
