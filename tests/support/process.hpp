@@ -26,7 +26,6 @@ struct Command {
     std::vector<std::string> arguments;
     std::map<std::string, std::optional<std::string>> environment = {}; // changes to it; nullopt unsets
     std::filesystem::path folder = {};                                  // to run in; empty: this one
-    std::optional<unsigned> memory_limit_mib = {};                      // of address space
     std::optional<unsigned> file_limit_kib = {}; // writing beyond fails, as on a full disk
 };
 
