@@ -30,8 +30,7 @@ void renderAll(const std::filesystem::path& rung, const std::string& context, co
         lines += line.dump() + "\n";
     }
     const auto batch = folder.write(context + ".jsonl", lines);
-    const Result result = run({rung, {"--context", context, "--batch", batch.string()}});
-    if (result.exit_code != 0) throw std::runtime_error(context + ": " + result.err);
+    runToSuccess({rung, {"--context", context, "--batch", batch.string()}});
 }
 
 // Of floats only whether all are equal matters here.

@@ -20,12 +20,6 @@ struct Frame {
 
 constexpr const char* sizes[] = {"1x1", "2x3", "641x479", "1920x1080", "16384x1", "1x16384"};
 
-std::string runRung(const std::filesystem::path& rung, std::vector<std::string> arguments) {
-    const Result result = run({rung, std::move(arguments)}, std::chrono::seconds(110));
-    if (result.exit_code != 0) throw std::runtime_error(result.err);
-    return result.out;
-}
-
 // The first value that is infinite or not a number, as words; empty: there is none.
 std::string firstNotFinite(const Image& image) {
     const auto* floats = std::get_if<std::vector<float>>(&image.pixels);
@@ -50,7 +44,7 @@ std::string whatIsWrong(const Frame& frame) {
 
 int check(const std::filesystem::path& rung) {
     const TemporaryFolder folder;
-    const auto listed = nlohmann::json::parse(runRung(rung, {"--settings", "--json"}));
+    const auto listed = nlohmann::json::parse(runToSuccess({rung, {"--settings", "--json"}}).out);
     std::vector<std::string> targets = listed.at("targets");
     if (targets.empty()) throw std::runtime_error("the rung lists no targets");
     targets.emplace_back();
@@ -64,7 +58,7 @@ int check(const std::filesystem::path& rung) {
             if (!target.empty()) line["target"] = target;
             lines += line.dump() + "\n";
         }
-    runRung(rung, {"--headless", "--batch", folder.write("batch.jsonl", lines).string()});
+    runToSuccess({rung, {"--headless", "--batch", folder.write("batch.jsonl", lines).string()}});
     int failures = 0;
     for (const Frame& frame : frames) {
         const std::string wrong = whatIsWrong(frame);

@@ -49,4 +49,7 @@ class Process {
 
 Result run(const Command& command, std::chrono::milliseconds limit = std::chrono::seconds(60));
 
+// Throws std::runtime_error saying how it ended, and its last line on stderr, unless that was with 0.
+Result runToSuccess(const Command& command, std::chrono::milliseconds limit = std::chrono::seconds(110));
+
 } // namespace gll::test
