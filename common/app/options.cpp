@@ -136,6 +136,8 @@ std::vector<FrameRequest> readBatch(const std::string& file, const FrameRequest&
         try {
             requests.push_back(parseBatchLine(line, base));
             checkSettings(requests.back(), settings);
+            if (requests.back().out.empty() && !requests.back().cost)
+                throw UsageError("names no \"out\" and asks for no \"cost\", so nothing would come of it");
         } catch (const UsageError& usage) {
             throw UsageError(file + ":" + std::to_string(number) + ": " + usage.what());
         }
@@ -236,6 +238,11 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
         app.add_option("--environment", options.files.environment, "your own sky: .hdr or .exr")
             ->type_name("FILE");
     }
+
+    // A script's unset variable must not pass for an option that was not given.
+    for (CLI::Option* option :
+         app.get_options([](const CLI::Option* o) { return o->get_items_expected() > 0; }))
+        option->check([](const std::string& value) { return value.empty() ? "is empty" : ""; });
 
     try {
         app.parse(argc, argv);
