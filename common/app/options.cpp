@@ -118,7 +118,6 @@ FrameRequest parseBatchLine(const std::string& line, FrameRequest request) {
     }
     if (json.contains("frame") && json.contains("frames"))
         throw UsageError("\"frame\" and \"frames\" exclude each other");
-    if (request.out.empty() && !request.cost) throw UsageError("asks for nothing: give out, or cost");
     checkRequest(request);
     return request;
 }
@@ -254,18 +253,12 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
         throw UsageError(std::string(error.what()) + "; --help lists the options");
     }
 
-    // Asked for by what was given, not by what is empty: a script's unset variable is an error, not a
-    // default.
-    const auto given = [&](const char* option) { return app.count(option) > 0; };
-    if (given("--size")) options.request.size = parseSize(size);
-    if (given("--frame") && given("--frames")) throw UsageError("--frame and --frames exclude each other");
-    if (given("--frame"))
+    if (!size.empty()) options.request.size = parseSize(size);
+    if (!frame.empty() && !frames.empty()) throw UsageError("--frame and --frames exclude each other");
+    if (!frame.empty())
         options.request.first_frame = options.request.last_frame =
             parseInteger(frame, 1, max_frame, "--frame");
-    if (given("--frames")) parseFrames(frames, options.request);
-    for (const char* option : {"--out", "--target", "--batch"})
-        if (given(option) && app.get_option(option)->as<std::string>().empty())
-            throw UsageError(std::string(option) + ": no name is given");
+    if (!frames.empty()) parseFrames(frames, options.request);
     options.counter = counterKind(counter);
 
     const bool needs_headless = !options.request.out.empty() || !frames.empty() ||
