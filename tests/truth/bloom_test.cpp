@@ -85,8 +85,10 @@ Plane bright(const Plane& hdr, int width, int height, const std::string& karis, 
         for (const auto& [dx, dy] : {std::pair(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
             const glm::dvec3 texel = hdr.clamped(i + dx, j + dy);
             const double luma = luminance(texel);
-            sum += texel * brightCurve(luma, at, half_width) / (1 + luma);
-            weights += 1 / (1 + luma);
+            const double share_x = 1 - std::abs(x - 0.5 - i - dx);
+            const double share_y = 1 - std::abs(y - 0.5 - j - dy);
+            sum += texel * share_x * share_y * brightCurve(luma, at, half_width) / (1 + luma);
+            weights += share_x * share_y / (1 + luma);
         }
         return sum / weights;
     });
@@ -278,32 +280,20 @@ constexpr double pass_ulps = 1.25;
 // That noise in the mean of four texels is doubled and more at the foot of the bright curve, which is steep
 // in proportion there (measured: -3.41 to +3.62).
 constexpr double bright_mean_ulps = 5;
+// Where each texel has its own curve, the noise is in the shares alone (measured: -1.48 to +0.73).
+constexpr double bright_texel_ulps = 2;
 // Each of the nine stores of the chain may truncate (measured: -8.9).
 constexpr double chain_ulps = 2 * levels;
-
-// Whether a pixel's centre is a texel's centre: (x + 0.5) * source / target is a whole number and a half.
-bool onTexelCentre(int x, int source, int target) {
-    return (2 * x + 1) * source % target == 0 && (2 * x + 1) * source / target % 2 == 1;
-}
 
 TEST_F(BloomTruth, theBrightPassIsItsFormulaForEveryKarisWeight) {
     for (const std::string size : sizes)
         for (const std::string karis : karis_kinds) {
             const Plane hdr = read(size + " hdr");
-            Plane actual = read(size + " bright " + karis);
+            const Plane actual = read(size + " bright " + karis);
             const Plane expected = bright(hdr, actual.width, actual.height, karis);
-            // Halving an odd size puts the middle pixel's centre onto a texel's centre: which 2x2 lies
-            // "under" it is then a matter of rounding, and the weight per texel takes a different one on
-            // either side.
-            if (karis == "texel")
-                for (int y = 0; y < actual.height; ++y)
-                    for (int x = 0; x < actual.width; ++x)
-                        if (onTexelCentre(x, hdr.width, actual.width) ||
-                            onTexelCentre(y, hdr.height, actual.height))
-                            actual.at(x, y) = expected.at(x, y);
             const Error error = errorOf(actual, expected);
             print(size + " bright " + karis, error);
-            EXPECT_LE(error.ulps(), karis == "texel" ? pass_ulps : bright_mean_ulps) << size << " " << karis;
+            EXPECT_LE(error.ulps(), karis == "texel" ? bright_texel_ulps : bright_mean_ulps) << size << " " << karis;
         }
 }
 
