@@ -15,11 +15,20 @@ inline std::runtime_error fileError(std::string_view where, std::string_view wha
     return std::runtime_error(std::string(where) + ": " + std::string(what));
 }
 
+// What a message shows of a word from a file, which may be of any length.
+inline std::string inQuotes(std::string_view word) {
+    std::string result = "'";
+    return result.append(word.substr(0, 80)).append("'");
+}
+
 // The bytes of a regular file of at most max_bytes. Anything else is never opened (opening a FIFO would
 // hang). Throws std::runtime_error "path: what, what to do".
 std::string readFile(const std::filesystem::path& path, std::size_t max_bytes);
 
-// Throws as readFile does, without reading: for files that are only named here and read later.
-void requireRegularFile(const std::filesystem::path& path);
+// The file that `relative` names inside `folder`, symbolic links resolved. It must exist, be regular and lie
+// in the folder or below: a mesh must not make us read /etc. Backslashes count as separators. `where` names
+// the reference in the error, std::runtime_error "where: what, what to do".
+std::filesystem::path confinedFile(const std::filesystem::path& folder, std::string relative,
+                                   std::string_view where);
 
 } // namespace gll

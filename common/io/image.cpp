@@ -306,6 +306,15 @@ Image loadImage(const std::filesystem::path& path) {
     return namingTheFile(name, [&] { return decode(bytes, name); });
 }
 
+Image loadImage(const ImageSource& source) {
+    if (!source.encoded) {
+        if (source.file.empty())
+            throw fileError(source.name, "names no image, look for one before reading it");
+        return loadImage(source.file);
+    }
+    return namingTheFile(source.name, [&] { return decode(*source.encoded, source.name); });
+}
+
 void saveImage(const std::filesystem::path& path, const Image& image, bool full_float) {
     const std::string name = path.string();
     const std::string extension = path.extension().string();

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -34,6 +36,21 @@ inline constexpr std::size_t max_image_bytes = std::size_t(512) << 20; // of dec
 // throws std::runtime_error "path: what, what to do". 16-bit PNGs are read as float in [0, 1], sRGB. Alpha
 // stays unassociated. An EXR's NaN and infinities are kept: callers that cannot use them must look for them.
 Image loadImage(const std::filesystem::path& path);
+
+// Where the encoded bytes of an image are: a file of its own, or memory (glTF holds images inside its own
+// files).
+struct ImageSource {
+    std::string name;                           // for messages: the path, or "path: /json/pointer"
+    std::filesystem::path file;                 // an existing file, or empty
+    std::shared_ptr<const std::string> encoded; // what that file would hold, or null
+
+    bool empty() const { return file.empty() && !encoded; }
+    // Equal sources decode to equal images, so that one upload can serve several uses.
+    bool operator==(const ImageSource&) const = default;
+};
+
+// Reads from either place, under the same rules. Throws also when the source is empty.
+Image loadImage(const ImageSource& source);
 
 // Writes .png (8-bit pixels only), .exr or .hdr (float pixels only; .exr as half unless full_float, infinite
 // beyond
