@@ -97,6 +97,20 @@ void drawAll(const Pass& pass, const Mesh& full_screen_triangle) {
 
 } // namespace
 
+std::vector<Input> usedBy(const Program& program, const std::vector<Input>& inputs) {
+    std::vector<Input> used;
+    for (const Input& input : inputs)
+        if (program.uniforms().contains(input.sampler)) used.push_back(input);
+    return used;
+}
+
+std::vector<UniformSetting> usedBy(const Program& program, const std::vector<UniformSetting>& uniforms) {
+    std::vector<UniformSetting> used;
+    for (const UniformSetting& uniform : uniforms)
+        if (program.uniforms().contains(uniform.name)) used.push_back(uniform);
+    return used;
+}
+
 void drawPass(const std::string& name, const Framebuffer& target, const Pass& pass,
               const Mesh& full_screen_triangle) {
     if (GLAD_GL_KHR_debug) glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, name.c_str());
