@@ -102,8 +102,7 @@ class GltfReader {
     }
 
   private:
-    // --- materials
-    // -----------------------------------------------------------------------------------------------
+    // --- materials ---
 
     // glTF's default material is fully metallic, ours is not.
     static MaterialData defaultMaterial() {
@@ -143,8 +142,7 @@ class GltfReader {
         return to;
     }
 
-    // --- nodes
-    // ---------------------------------------------------------------------------------------------------
+    // --- nodes ---
 
     glm::dmat4 localTransform(const tinygltf::Node& node, int number) const {
         if (node.matrix.size() == 16) return glm::make_mat4(node.matrix.data());
@@ -164,8 +162,7 @@ class GltfReader {
         return transform;
     }
 
-    // --- accessors
-    // -----------------------------------------------------------------------------------------------
+    // --- accessors ---
 
     const char* viewBytes(int view, std::size_t offset) const {
         const tinygltf::BufferView& v = model.bufferViews.at(static_cast<std::size_t>(view));
@@ -221,8 +218,7 @@ class GltfReader {
         }
     }
 
-    // --- meshes
-    // --------------------------------------------------------------------------------------------------
+    // --- meshes ---
 
     void addMesh(std::size_t number, const glm::dmat4& to_world) {
         const tinygltf::Mesh& from = model.meshes.at(number);

@@ -153,8 +153,7 @@ class GltfCheck {
         throw fileError(name + ": " + pointer, what);
     }
 
-    // --- the container
-    // -------------------------------------------------------------------------------------------
+    // --- the container ---
 
     static std::size_t littleEndian32(std::string_view bytes, std::size_t at) {
         std::size_t value = 0;
@@ -210,8 +209,7 @@ class GltfCheck {
         if (!doc.is_object()) throw fileError(name, "is not a JSON object, so not glTF");
     }
 
-    // --- access with checks
-    // --------------------------------------------------------------------------------------
+    // --- access with checks ---
 
     // A top-level array of objects; empty if the file has none.
     const Json& list(const std::string& key) const {
@@ -323,8 +321,7 @@ class GltfCheck {
         to[key] = *found;
     }
 
-    // --- the file's parts
-    // ----------------------------------------------------------------------------------------
+    // --- the file's parts ---
 
     void checkHead() {
         const Json* asset = object(doc, "", "asset");

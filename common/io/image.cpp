@@ -119,15 +119,23 @@ void checkJpegEnds(std::string_view bytes, const std::string& name) {
     throw fileError(name, "ends before its last row, fetch it again");
 }
 
-// libpng reports a truncated file on stderr as well; a file whose chunks reach IEND is not truncated.
-void checkPngEnds(std::string_view bytes, const std::string& name) {
+// libpng reports truncated files and impossible sizes on stderr as well; what passes here is neither.
+void checkPng(std::string_view bytes, const std::string& name) {
+    const auto bigEndian32 = [&](std::size_t at) {
+        std::size_t value = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+        return value;
+    };
     std::size_t at = 8;
     while (at + 12 <= bytes.size()) { // length, type, checksum: four bytes each
-        std::size_t length = 0;
-        for (std::size_t i = 0; i < 4; ++i)
-            length = length << 8 | static_cast<unsigned char>(bytes[at + i]);
+        const std::size_t length = bigEndian32(at);
         if (length > bytes.size() - at - 12) break;
-        if (bytes.substr(at + 4, 4) == "IEND") return;
+        const std::string_view type = bytes.substr(at + 4, 4);
+        if (type == "IHDR" && length >= 8)
+            checkSize(static_cast<long long>(bigEndian32(at + 8)),
+                      static_cast<long long>(bigEndian32(at + 12)), 1, name);
+        if (type == "IEND") return;
         at += 12 + length;
     }
     throw fileError(name, "ends before its last row, fetch it again");
@@ -168,7 +176,7 @@ Image decode(std::string_view bytes, const std::string& name) {
     const Format format = formatOf(bytes, name);
     if (format == Format::hdr) checkHdrHeader(bytes, name);
     if (format == Format::jpeg) checkJpegEnds(bytes, name);
-    if (format == Format::png) checkPngEnds(bytes, name);
+    if (format == Format::png) checkPng(bytes, name);
 
     OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size()); // it only reads
     const std::unique_ptr<OIIO::ImageInput> input =

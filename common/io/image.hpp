@@ -37,8 +37,7 @@ inline constexpr std::size_t max_image_bytes = std::size_t(512) << 20; // of dec
 // stays unassociated. An EXR's NaN and infinities are kept: callers that cannot use them must look for them.
 Image loadImage(const std::filesystem::path& path);
 
-// Where the encoded bytes of an image are: a file of its own, or memory (glTF holds images inside its own
-// files).
+// Where the encoded bytes of an image are: in a file of its own, or in memory (glTF may embed its images).
 struct ImageSource {
     std::string name;                           // for messages: the path, or "path: /json/pointer"
     std::filesystem::path file;                 // an existing file, or empty
@@ -52,10 +51,9 @@ struct ImageSource {
 // Reads from either place, under the same rules. Throws also when the source is empty.
 Image loadImage(const ImageSource& source);
 
-// Writes .png (8-bit pixels only), .exr or .hdr (float pixels only; .exr as half unless full_float, infinite
-// beyond
-// +-65504 then; .hdr takes three channels, finite and not negative). The file appears whole or not at all,
-// and equal pixels make equal files. Throws std::runtime_error "path: what, what to do".
+// Writes .png (8-bit pixels only), .exr or .hdr (float pixels only). An .exr is half float unless full_float,
+// and then infinite from 65520 on; an .hdr takes three channels, finite and not negative. The file appears
+// whole or not at all, and equal pixels make equal files. Throws std::runtime_error "path: what, what to do".
 void saveImage(const std::filesystem::path& path, const Image& image, bool full_float = true);
 
 } // namespace gll

@@ -41,7 +41,7 @@ void setParts(MeshData& mesh, const std::vector<std::vector<std::uint32_t>>& ind
 glm::vec3 unitOr(const glm::dvec3& v, const glm::vec3& fallback) {
     // Scaled first, so that neither tiny nor huge vectors lose their direction.
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    if (!(largest > 0.0) || !std::isfinite(largest)) return fallback;
+    if (!(largest > 0.0) || !std::isfinite(v.x + v.y + v.z) || !std::isfinite(largest)) return fallback;
     return glm::vec3(glm::normalize(v / largest));
 }
 

@@ -66,31 +66,36 @@ struct MeshData {
     std::vector<MaterialData> materials;
 };
 
-inline constexpr std::size_t max_mesh_file_bytes = std::size_t(256)
-                                                   << 20; // each file; glTF: all buffers together
+// Of each file; glTF: also of all buffers together, and of all embedded images together.
+inline constexpr std::size_t max_mesh_file_bytes = std::size_t(256) << 20;
 inline constexpr std::size_t max_mesh_vertices = std::size_t(1) << 24;
 inline constexpr std::size_t max_mesh_indices = 3 * max_mesh_vertices;
-inline constexpr std::size_t max_face_corners =
-    255; // of one OBJ polygon: cutting it up takes corners squared
+// Of one OBJ polygon; cutting one up takes its corners cubed at worst.
+inline constexpr std::size_t max_face_corners = 255;
 inline constexpr std::size_t max_json_nesting = 64;
-inline constexpr std::size_t max_node_depth = 256; // of glTF's node hierarchy
+// Of glTF's node hierarchy.
+inline constexpr std::size_t max_node_depth = 256;
 
 // Reads a .obj, .gltf or .glb (told by the extension) with its materials. Files named inside must lie in the
-// mesh's folder or below it. Throws std::runtime_error: "path:line: what" for OBJ and MTL, "path:
-// /json/pointer: what" for glTF, "path: what" where neither applies.
-//   OBJ: v, vt, vn, f, usemtl, mtllib; the rest is skipped. Relative indices, polygons (triangulated), CRLF.
-//   Missing normals are the angle-weighted mean of the faces round the vertex. glTF: the default scene
-//   (without one: the first; without scenes: all root nodes), transforms applied, strips and fans as
-//   triangles, points and lines skipped. Missing normals are the faces' own, as the specification has it.
-//   Refused: required extensions (Draco among them), images in other than PNG or JPEG, texture coordinates
-//   beyond the first set. Not read: skins, morph targets, animations, cameras, lights, alpha modes, texture
-//   transforms.
+// mesh's folder or below it.
+//
+// OBJ: v, vt, vn, f, usemtl, mtllib; the rest is skipped. Relative indices, polygons (triangulated), CRLF.
+// Missing normals are the angle-weighted mean of the faces round the vertex.
+//
+// glTF: the default scene (without one: the first; without scenes: all root nodes), transforms applied,
+// strips and fans as triangles, points and lines skipped. Missing normals are the faces' own, as the
+// specification has it. Refused: required extensions (Draco among them), texture coordinates beyond the first
+// set, textures that only an extension holds. Not read: skins, morph targets, animations, cameras, lights,
+// alpha modes, texture transforms.
+//
+// Throws std::runtime_error "where: what, what to do"; where is path:line for OBJ and MTL, "path:
+// /json/pointer" for glTF, or the path where neither applies.
 MeshData loadMesh(const std::filesystem::path& path);
 
-// Reads the materials of an MTL, at least one, in the file's order: Kd, map_Kd; map_Ka (occlusion); Pr,
-// map_Pr; Pm, map_Pm; Ke, map_Ke; norm or, without it, map_Bump (a normal map, not heights); '-imfchan
-// r|g|b|m' picks a channel (m: the first). Without Pr roughness is 1; without Pm metallic is 1 with a map and
-// 0 without. Throws as loadMesh.
+// Reads the materials of an MTL, at least one, in the file's order. Kd, map_Kd: base colour. map_Ka:
+// occlusion. Pr, map_Pr: roughness, 1 without Pr. Pm, map_Pm: metallic; without Pm 1 if there is a map, else
+// 0. Ke, map_Ke: emitted colour. norm or, without it, map_Bump: a normal map, not heights. "-imfchan r|g|b|m"
+// before a file name picks the channel (m: the first). Throws as loadMesh does.
 std::vector<MaterialData> loadMtl(const std::filesystem::path& path);
 
 } // namespace gll

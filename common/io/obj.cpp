@@ -65,24 +65,22 @@ void forEachStatement(std::string_view text, const std::string& path, const Use&
     }
 }
 
-// A finite number that a float can hold. Words are limited in length because tinyobjloader's own parser
-// raises ten to whatever exponent it finds.
+// A finite number that a float can hold with room to spare, because tinyobjloader's own parser rounds
+// otherwise than this one. It also raises ten to whatever exponent it finds, so words are limited in length.
 float parseNumber(std::string_view word, const std::string& where) {
     double value = 0.0;
     std::string_view digits = word;
-    if (digits.starts_with('+')) digits.remove_prefix(1);
+    if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
     const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (word.empty() || parsed.ec == std::errc::invalid_argument ||
         parsed.ptr != digits.data() + digits.size())
         throw fileError(where, word.empty() ? "a number is missing" : inQuotes(word) + " is not a number");
-    if (parsed.ec != std::errc() || !(std::abs(value) <= std::numeric_limits<float>::max()) ||
-        word.size() > 64)
+    if (parsed.ec != std::errc() || !(std::abs(value) <= 1e38) || word.size() > 64)
         throw fileError(where, inQuotes(word) + " is not a finite number of sensible size");
     return static_cast<float>(value);
 }
 
-// --- MTL
-// ---------------------------------------------------------------------------------------------------------
+// --- MTL ---
 
 // Numbers as "Kd r g b"; a single one stands for all three, as the MTL specification has it.
 glm::vec3 parseColour(std::string_view rest, const std::string& where) {
@@ -193,8 +191,7 @@ std::vector<MaterialData> readMtl(const std::filesystem::path& path) {
     return materials;
 }
 
-// --- OBJ
-// ---------------------------------------------------------------------------------------------------------
+// --- OBJ ---
 
 // A checked OBJ: text that tinyobjloader reads without surprises, and the materials it refers to by number.
 struct CheckedObj {
