@@ -6,6 +6,7 @@ layout(location = 1) in vec3 vertex_normal;   // world, unit length
 layout(location = 2) in vec2 vertex_uv;       // v = 0 is the top row of an image
 
 uniform mat4 clip_from_world;
+uniform vec2 v_factor_offset; // turns v over where a model's runs the other way
 
 out vec3 world_position;
 out vec3 world_normal; // not unit length between vertices
@@ -14,6 +15,6 @@ out vec2 uv;
 void main() {
     world_position = vertex_position;
     world_normal = vertex_normal;
-    uv = vertex_uv;
+    uv = vec2(vertex_uv.x, vertex_uv.y * v_factor_offset.x + v_factor_offset.y);
     gl_Position = clip_from_world * vec4(vertex_position, 1.0);
 }

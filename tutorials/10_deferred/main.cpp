@@ -51,6 +51,8 @@ struct DeferredOptions {
         all.choice("view", "lit", {"lit", "albedo", "normal", "position", "depth", "ssao", "shadow"},
                    "the picture, or one buffer full screen");
     Toggle filmstrip = all.toggle("filmstrip", true, "four buffers along the bottom");
+    Toggle flip_v = all.toggle("flip_v", false,
+                               "turn the model's texture coordinates over: for OBJ files whose v runs down");
     OrbitSettings orbit{all};
     // end excerpt
 };
@@ -193,7 +195,7 @@ class Deferred final : public Rung {
         const Program& program =
             shaders_.program("10_deferred/geometry.vert", "10_deferred/geometry.frag",
                              options_.gbuffer.defines() + options_.texture_filter.defines());
-        std::vector<Draw> draws = scene_.materialDraws(filter);
+        std::vector<Draw> draws = scene_.materialDraws(filter, options_.flip_v);
         for (Draw& draw : draws)
             draw.uniforms = usedBy(program, draw.uniforms);
         frame.pass("geometry", gbuffer_,

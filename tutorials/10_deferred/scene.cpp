@@ -85,7 +85,7 @@ Scene::Scene(const std::filesystem::path& mesh, const std::filesystem::path& flo
     parts_.push_back({&floor_, surfaces_.size() - 1, 0, 0});
 }
 
-std::vector<Draw> Scene::materialDraws(MaterialFilter filter) {
+std::vector<Draw> Scene::materialDraws(MaterialFilter filter, bool flip_v) {
     std::vector<Draw> draws;
     for (const Part& part : parts_) {
         Surface& surface = surfaces_[part.surface];
@@ -98,7 +98,9 @@ std::vector<Draw> Scene::materialDraws(MaterialFilter filter) {
                                       {"specular_scale", surface.specular_scale},
                                       {"shininess", surface.shininess},
                                       {"normal_strength", surface.normal_strength},
-                                      {"material", surface.tag}},
+                                      {"material", surface.tag},
+                                      {"v_factor_offset",
+                                       flip_v && part.mesh == &statue_ ? glm::vec2(-1, 1) : glm::vec2(1, 0)}},
                          .first_index = part.first_index,
                          .index_count = part.index_count});
     }

@@ -19,7 +19,8 @@ class Scene {
 
     // Attributes 0: position, 1: normal, 2: uv; nearest the camera first, so that the depth test spares what
     // is behind. The draws last as long as the scene and until the next call with another filter.
-    std::vector<Draw> materialDraws(MaterialFilter filter);
+    // flip_v turns the statue's texture coordinates over.
+    std::vector<Draw> materialDraws(MaterialFilter filter, bool flip_v);
     std::vector<Draw> depthDraws() const;
 
   private:
