@@ -7,12 +7,12 @@ in vec2 uv;
 
 uniform vec2 half_uv_from_view; // offset from the screen's centre = view xy * this / -view z
 uniform float radius;           // world units
+uniform float bias;             // world units by which an occluder must stand out
 #if SSAO == SSAO_GTAO
 uniform int slices;             // directions in which horizons are sought
 uniform int steps;              // samples along each half of a slice
 #else
 uniform vec3 kernel[SSAO_SAMPLES]; // samples in the hemisphere about z, world units
-uniform float bias;             // world units by which an occluder must be nearer
 uniform float strength;         // factor on the occlusion
 #endif
 
@@ -46,6 +46,8 @@ float horizonCosine(vec3 view_position, vec3 to_eye, vec2 uv_step, float jitter,
 float visibilityAt(vec3 view_position, vec3 view_normal, float turn) {
     const float pi = 3.14159265;
     const float half_pi = 0.5 * pi;
+    // looked at from a little above, a flat surface hides nothing of itself, however coarse its stored positions
+    view_position += bias * view_normal;
     vec3 to_eye = normalize(-view_position);
     vec2 uv_radius = min(radius * half_uv_from_view / -view_position.z, 0.3);
     float jitter = fract(turn * 7.0 + 0.5);
