@@ -2,6 +2,7 @@
 #include "app/cost.hpp"
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
@@ -11,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #if __has_include(<valgrind/callgrind.h>)
@@ -105,7 +107,8 @@ class CallgrindCounter final : public Counter {
     double stop() override {
         glFinish();
         CALLGRIND_DUMP_STATS;
-        const std::string path = file_ + "." + std::to_string(++dumps_);
+        static int dumps = 0; // callgrind numbers its files through the whole process
+        const std::string path = file_ + "." + std::to_string(++dumps);
         std::ifstream stream(path);
         std::string line;
         double total = -1;
@@ -118,7 +121,6 @@ class CallgrindCounter final : public Counter {
 
   private:
     std::string file_;
-    int dumps_ = 0;
 };
 #endif
 
@@ -249,18 +251,33 @@ void prepareCost(CounterKind counter, char** argv) {
     if (mkdtemp(folder) == nullptr)
         throw std::runtime_error("/tmp: no folder can be made there for callgrind");
     const std::string file = std::string(folder) + "/callgrind.out";
-    setenv(callgrind_file_variable, file.c_str(), 1);
-    std::vector<std::string> words = {"valgrind", "--tool=callgrind", "--instr-atstart=no", "-q",
-                                      "--callgrind-out-file=" + file};
-    std::vector<char*> arguments;
-    for (std::string& word : words)
-        arguments.push_back(word.data());
-    for (char** argument = argv; *argument != nullptr; ++argument)
-        arguments.push_back(*argument);
-    arguments.push_back(nullptr);
-    execvp("valgrind", arguments.data());
-    rmdir(folder);
-    throw std::runtime_error("--counter callgrind: valgrind cannot be started (Debian package valgrind)");
+    if (isatty(fileno(stderr)) != 0)
+        std::fputs("counting under valgrind, which takes a minute or so for each frame size\n", stderr);
+
+    std::signal(SIGINT, SIG_IGN); // Ctrl-C reaches the child; this process stays to tidy up
+    const pid_t child = fork();
+    if (child == 0) {
+        std::signal(SIGINT, SIG_DFL);
+        setenv(callgrind_file_variable, file.c_str(), 1);
+        std::vector<std::string> words = {"valgrind", "--tool=callgrind", "--instr-atstart=no", "-q",
+                                          "--callgrind-out-file=" + file};
+        std::vector<char*> arguments;
+        for (std::string& word : words)
+            arguments.push_back(word.data());
+        for (char** argument = argv; *argument != nullptr; ++argument)
+            arguments.push_back(*argument);
+        arguments.push_back(nullptr);
+        execvp("valgrind", arguments.data());
+        _exit(127);
+    }
+    int status = 0;
+    while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    std::error_code ignored;
+    std::filesystem::remove_all(folder, ignored);
+    if (child < 0 || (WIFEXITED(status) && WEXITSTATUS(status) == 127))
+        throw std::runtime_error("--counter callgrind: valgrind cannot be started (Debian package valgrind)");
+    std::exit(WIFEXITED(status) ? WEXITSTATUS(status) : 130);
 }
 
 CostReport measureCost(Renderer& renderer, const RungInfo& info, int frame, glm::ivec2 size,
@@ -324,12 +341,13 @@ std::string costTable(const CostReport& report) {
                        fixed(report.copy_per_pixel, instructions ? 1 : 3) + " " + per_pixel + "\n\n" +
                        aligned("pass", 14, true) + aligned("size", 11) + aligned(per_pixel, 11) +
                        aligned("cu", 9) + aligned("bytes/px", 10) + aligned("ms", 9) + "\n";
+    const bool timed = report.counter != "callgrind"; // under valgrind, times mean nothing
     const auto row = [&](const std::string& name, glm::ivec2 size, double amount, const std::string& bytes,
                          double time_ms) {
         text += aligned(name, 14, true) + aligned(std::to_string(size.x) + "x" + std::to_string(size.y), 11) +
                 aligned(fixed(amount / area(size), instructions ? 1 : 3), 11) +
                 aligned(fixed(copies(report, amount), 3), 9) + aligned(bytes, 10) +
-                aligned(fixed(time_ms, 3), 9) + "\n";
+                aligned(timed ? fixed(time_ms, 3) : "-", 9) + "\n";
     };
     double sum = 0;
     double bytes = 0;
@@ -358,20 +376,22 @@ std::string costJson(const CostReport& report) {
                                 {"unit", report.unit},
                                 {"copy_per_pixel", report.copy_per_pixel}};
     if (!report.note.empty()) json["note"] = report.note;
-    for (const PassCost& pass : report.passes)
+    const bool timed = report.counter != "callgrind"; // under valgrind, times mean nothing
+    for (const PassCost& pass : report.passes) {
         json["passes"].push_back({{"name", pass.name},
                                   {"size", {pass.size.x, pass.size.y}},
                                   {"per_pixel", pass.amount / area(pass.size)},
                                   {"cu", copies(report, pass.amount)},
-                                  {"bytes_per_pixel", pass.bytes_per_pixel},
-                                  {"ms", pass.time_ms}});
+                                  {"bytes_per_pixel", pass.bytes_per_pixel}});
+        if (timed) json["passes"].back()["ms"] = pass.time_ms;
+    }
     double sum = 0;
     for (const PassCost& pass : report.passes)
         sum += copies(report, pass.amount);
     json["sum_cu"] = sum;
     json["frame_amount"] = report.frame_amount;
     json["frame_cu"] = copies(report, report.frame_amount);
-    json["frame_ms"] = report.frame_time_ms;
+    if (timed) json["frame_ms"] = report.frame_time_ms;
     return json.dump() + "\n";
 }
 

@@ -33,8 +33,8 @@ struct CostReport {
 };
 
 // Before the first context: makes Mesa's rasteriser work in the calling thread, so that counting that thread
-// counts everything. With CounterKind::callgrind outside valgrind, starts the program anew under it and does
-// not return; throws std::runtime_error where valgrind is not there.
+// counts everything. With CounterKind::callgrind outside valgrind, runs the program anew under it and exits
+// as that did; throws std::runtime_error where valgrind is not there.
 void prepareCost(CounterKind counter, char** argv);
 
 // Renders the frame several times and measures it. Throws std::runtime_error where the counter asked for is

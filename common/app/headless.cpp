@@ -205,11 +205,13 @@ int runHeadless(const Options& options, const RungInfo& info, Settings& settings
 int listSettings(const Options& options, const RungInfo& info, Settings& settings) {
     std::vector<std::string> targets;
     std::vector<std::string> passes;
+    std::string renderer;
     std::string reason;
     try {
         const auto context = makeHeadlessContext(ContextKind::headless);
-        Renderer renderer(*context, info, options.files);
-        const auto& drawn = renderer.render(1, {64, 64});
+        renderer = context->info().renderer + ", " + context->info().version;
+        Renderer small(*context, info, options.files);
+        const auto& drawn = small.render(1, {64, 64});
         targets = targetNames(drawn);
         for (const DrawnPass& pass : drawn)
             passes.push_back(pass.name);
@@ -225,6 +227,7 @@ int listSettings(const Options& options, const RungInfo& info, Settings& setting
                 {{"name", preset.name}, {"help", preset.help}, {"values", preset.values}});
         json["targets"] = targets;
         json["passes"] = passes;
+        if (reason.empty()) json["renderer"] = renderer;
         if (!reason.empty()) json["targets_unknown"] = reason;
         std::printf("%s\n", json.dump(2).c_str());
         return 0;

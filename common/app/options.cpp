@@ -116,6 +116,9 @@ FrameRequest parseBatchLine(const std::string& line, FrameRequest request) {
                              "frames, preset, set (an object or a list), out, target, cost");
         }
     }
+    if (json.contains("frame") && json.contains("frames"))
+        throw UsageError("\"frame\" and \"frames\" exclude each other");
+    if (request.out.empty() && !request.cost) throw UsageError("asks for nothing: give out, or cost");
     checkRequest(request);
     return request;
 }
@@ -244,12 +247,18 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
         throw UsageError(std::string(error.what()) + "; --help lists the options");
     }
 
-    if (!size.empty()) options.request.size = parseSize(size);
-    if (!frame.empty() && !frames.empty()) throw UsageError("--frame and --frames exclude each other");
-    if (!frame.empty())
+    // Asked for by what was given, not by what is empty: a script's unset variable is an error, not a
+    // default.
+    const auto given = [&](const char* option) { return app.count(option) > 0; };
+    if (given("--size")) options.request.size = parseSize(size);
+    if (given("--frame") && given("--frames")) throw UsageError("--frame and --frames exclude each other");
+    if (given("--frame"))
         options.request.first_frame = options.request.last_frame =
             parseInteger(frame, 1, max_frame, "--frame");
-    if (!frames.empty()) parseFrames(frames, options.request);
+    if (given("--frames")) parseFrames(frames, options.request);
+    for (const char* option : {"--out", "--target", "--batch"})
+        if (given(option) && app.get_option(option)->as<std::string>().empty())
+            throw UsageError(std::string(option) + ": no name is given");
     options.counter = counterKind(counter);
 
     const bool needs_headless = !options.request.out.empty() || !frames.empty() ||

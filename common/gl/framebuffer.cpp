@@ -32,13 +32,17 @@ Framebuffer::Framebuffer(std::vector<Attachment> attachments, glm::ivec2 size)
                           [](const Attachment& a) { return !isDepth(a); });
     color_count_ = static_cast<int>(std::count_if(attachments_.begin(), attachments_.end(),
                                                   [](const Attachment& a) { return !isDepth(a); }));
+    GLint most_colors = 0;
+    glGetIntegerv(GL_MAX_COLOR_ATTACHMENTS, &most_colors);
+    if (color_count_ > most_colors)
+        throw incomplete("more than " + std::to_string(most_colors) + " colour attachments");
+    if (std::ssize(attachments_) > color_count_ + 1) throw incomplete("more than one depth attachment");
     create();
 }
 
 void Framebuffer::resize(glm::ivec2 size) {
     if (size == size_) return;
-    size_ = size;
-    create();
+    *this = Framebuffer(attachments_, size);
 }
 
 void Framebuffer::create() {
@@ -70,12 +74,15 @@ void Framebuffer::create() {
     }
     const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    if (status == GL_FRAMEBUFFER_COMPLETE) return;
+    if (status != GL_FRAMEBUFFER_COMPLETE) throw incomplete(statusName(status));
+}
+
+std::runtime_error Framebuffer::incomplete(const std::string& why) const {
     std::string message = "framebuffer (";
     for (const Attachment& attachment : attachments_)
         message += attachment.name + " " + formatInfo(attachment.format).name + ", ";
-    throw std::runtime_error(message + std::to_string(size_.x) + "x" + std::to_string(size_.y) +
-                             "): " + statusName(status));
+    return std::runtime_error(message + std::to_string(size_.x) + "x" + std::to_string(size_.y) +
+                              "): " + why);
 }
 
 const Texture& Framebuffer::color(int location) const {

@@ -3,6 +3,7 @@
 
 #include "gl/texture.hpp"
 
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,7 +25,8 @@ class Framebuffer {
     // Throws std::runtime_error naming the attachments where the framebuffer is not complete.
     Framebuffer(std::vector<Attachment> attachments, glm::ivec2 size);
 
-    // Makes the attachments anew where the size differs; their contents are then undefined.
+    // Makes the attachments anew where the size differs; their contents are then undefined. Where that throws
+    // (see the constructor, and Texture's for sizes), the framebuffer is as it was.
     void resize(glm::ivec2 size);
 
     glm::ivec2 size() const { return size_; }
@@ -44,6 +46,7 @@ class Framebuffer {
   private:
     static void destroy(GLuint id) { glDeleteFramebuffers(1, &id); }
     void create();
+    std::runtime_error incomplete(const std::string& why) const;
 
     std::vector<Attachment> attachments_;
     std::vector<Texture> textures_; // one for each attachment, in the same order

@@ -2,6 +2,7 @@
 #include "gl/mesh.hpp"
 
 #include <stdexcept>
+#include <string>
 
 namespace gll {
 namespace {
@@ -35,6 +36,12 @@ GLuint makeVertexArray() {
 Mesh::Mesh(const MeshDescription& description) {
     if (description.vertices.empty() || description.vertex_stride_bytes <= 0)
         throw std::invalid_argument("mesh: no vertices");
+    const std::size_t vertex_count =
+        description.vertices.size() / static_cast<std::size_t>(description.vertex_stride_bytes);
+    for (const std::uint32_t index : description.indices) // drawing what lies beyond is undefined
+        if (index >= vertex_count)
+            throw std::invalid_argument("mesh: index " + std::to_string(index) + " of " +
+                                        std::to_string(vertex_count) + " vertices");
     vertex_array_ = Handle<destroyVertexArray>(makeVertexArray());
     vertices_ = Buffer(fillBuffer(GL_ARRAY_BUFFER, description.vertices));
     describe(description.attributes, description.vertex_stride_bytes, 0);
@@ -44,8 +51,7 @@ Mesh::Mesh(const MeshDescription& description) {
         instanced_ = true;
     }
     if (description.indices.empty()) {
-        count_ = static_cast<std::uint32_t>(description.vertices.size() /
-                                            static_cast<std::size_t>(description.vertex_stride_bytes));
+        count_ = static_cast<std::uint32_t>(vertex_count);
     } else {
         indices_ = Buffer(fillBuffer(GL_ELEMENT_ARRAY_BUFFER, std::as_bytes(description.indices)));
         count_ = static_cast<std::uint32_t>(description.indices.size());

@@ -29,6 +29,7 @@ struct MeshDescription {
 
 class Mesh {
   public:
+    // Throws std::invalid_argument where there is no vertex, or an index beyond them.
     explicit Mesh(const MeshDescription& description);
 
     // Three vertices and no attributes: lib/fullscreen.vert makes the screen-covering triangle from

@@ -42,7 +42,17 @@ void clear(const Framebuffer& target, const Pass& pass) {
 // Sets inputs and uniforms of a program and remembers which were given.
 class Bindings {
   public:
-    explicit Bindings(const Program& program) : program_(program) {}
+    explicit Bindings(const Program& program) : program_(program) { glUseProgram(program.id()); }
+    ~Bindings() {
+        for (std::size_t unit = 0; unit < units_.size(); ++unit) {
+            glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
+            glBindTexture(GL_TEXTURE_2D, 0);
+        }
+        glActiveTexture(GL_TEXTURE0);
+        glUseProgram(0);
+    }
+    Bindings(const Bindings&) = delete;
+    Bindings& operator=(const Bindings&) = delete;
 
     void set(const std::vector<Input>& inputs, const std::vector<UniformSetting>& uniforms) {
         for (const Input& input : inputs) {
@@ -64,14 +74,6 @@ class Bindings {
                 throw std::invalid_argument(program_.name() + ": uniform " + name + " was not set");
     }
 
-    void unbind() const {
-        for (std::size_t unit = 0; unit < units_.size(); ++unit) {
-            glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
-            glBindTexture(GL_TEXTURE_2D, 0);
-        }
-        glActiveTexture(GL_TEXTURE0);
-    }
-
   private:
     const Program& program_;
     std::map<std::string, std::size_t> units_;
@@ -79,21 +81,34 @@ class Bindings {
 };
 
 void drawAll(const Pass& pass, const Mesh& full_screen_triangle) {
-    glUseProgram(pass.program.id());
-    Bindings bindings(pass.program);
-    bindings.set(pass.inputs, pass.uniforms);
     if (pass.draws.empty()) {
+        Bindings bindings(pass.program);
+        bindings.set(pass.inputs, pass.uniforms);
         bindings.requireAll();
         (pass.mesh != nullptr ? *pass.mesh : full_screen_triangle).draw(pass.instances);
     }
-    for (const Draw& draw : pass.draws) {
+    for (const Draw& draw : pass.draws) { // each from the pass's own values: no draw sees another's
+        Bindings bindings(pass.program);
+        bindings.set(pass.inputs, pass.uniforms);
         bindings.set(draw.inputs, draw.uniforms);
         bindings.requireAll();
         draw.mesh.draw(1, draw.first_index, draw.index_count);
     }
-    bindings.unbind();
-    glUseProgram(0);
 }
+
+// What is bound around a pass, unbound also where the pass throws.
+class Scope {
+  public:
+    explicit Scope(const std::string& name) {
+        if (GLAD_GL_KHR_debug) glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, name.c_str());
+    }
+    ~Scope() {
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        if (GLAD_GL_KHR_debug) glPopDebugGroup();
+    }
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+};
 
 } // namespace
 
@@ -113,12 +128,10 @@ std::vector<UniformSetting> usedBy(const Program& program, const std::vector<Uni
 
 void drawPass(const std::string& name, const Framebuffer& target, const Pass& pass,
               const Mesh& full_screen_triangle) {
-    if (GLAD_GL_KHR_debug) glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, name.c_str());
+    const Scope scope(name);
     setState(target, pass);
     clear(target, pass);
     drawAll(pass, full_screen_triangle);
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    if (GLAD_GL_KHR_debug) glPopDebugGroup();
 }
 
 double bytesPerPixel(const Framebuffer& target, const Pass& pass) {

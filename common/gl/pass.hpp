@@ -25,8 +25,8 @@ enum class DepthTest { off, less, less_equal }; // on: depth is also written
 enum class Cull { none, back };
 enum class Blend { replace, add }; // add: destination + source (ONE, ONE)
 
-// One draw call of a pass that has several: its mesh (or a part of it) and what it adds to the pass's own
-// inputs and uniforms.
+// One draw call of a pass that has several: its mesh (or a part of it) and what it sets over the pass's own
+// inputs and uniforms, for itself alone.
 struct Draw {
     const Mesh& mesh;
     std::vector<Input> inputs = {};

@@ -14,6 +14,9 @@ namespace {
 
 constexpr int max_include_depth = 16;
 constexpr std::uintmax_t max_shader_bytes = 1 << 20;
+// Lines of file k are numbered from k times this: Mesa forgets the file number of a line marker in all but
+// syntax errors, and with the file in the line number it is known all the same.
+constexpr int line_stride = 100'000;
 
 std::string trimmed(std::string_view text) {
     const auto first = text.find_first_not_of(" \t\r\n");
@@ -34,7 +37,9 @@ class Preprocessor {
     }
 
   private:
-    std::string read(const std::string& file, const std::string& asked_from) {
+    // The text of a file, and which file that is, however its name was spelt.
+    std::pair<std::string, std::filesystem::path> read(const std::string& file,
+                                                       const std::string& asked_from) {
         std::string tried;
         const std::string prefix = asked_from.empty() ? "" : asked_from + ": ";
         for (const std::filesystem::path& root : roots_) {
@@ -52,7 +57,7 @@ class Preprocessor {
                 std::ostringstream text;
                 text << stream.rdbuf();
                 if (stream.bad()) throw std::runtime_error(path.string() + ": cannot be read");
-                return text.str();
+                return {text.str(), path};
             }
             tried += (tried.empty() ? "" : ", ") + path.string();
         }
@@ -60,34 +65,41 @@ class Preprocessor {
     }
 
     void append(const std::string& file, const std::string& asked_from, int depth) {
-        if (!included_.insert(file).second) return;
+        const auto [text, path] = read(file, asked_from);
+        if (!included_.insert(path).second) return;
         if (depth > max_include_depth)
             throw std::runtime_error(asked_from + ": includes go more than " +
                                      std::to_string(max_include_depth) + " deep");
-        const std::string text = read(file, asked_from);
-        const std::string number = std::to_string(source_.files.size());
+        const auto number = static_cast<int>(source_.files.size());
         source_.files.push_back(file);
-        if (depth > 0) source_.text += "#line 1 " + number + "\n";
+        if (depth > 0) markLine(number, 1);
 
         std::istringstream lines(text);
         std::string line;
         for (int line_number = 1; std::getline(lines, line); ++line_number) {
             if (!line.empty() && line.back() == '\r') line.pop_back();
             const std::string place = file + ":" + std::to_string(line_number);
+            if (line_number >= line_stride)
+                throw std::runtime_error(place + ": more lines than a shader has");
             const std::string statement = trimmed(line);
             if (statement.starts_with("#version")) {
                 if (depth > 0) throw std::runtime_error(place + ": #version belongs into the stage alone");
                 source_.text += line + "\n";
                 for (const Define& define : defines_)
                     source_.text += "#define " + define.name + " " + define.value + "\n";
-                source_.text += "#line " + std::to_string(line_number + 1) + " " + number + "\n";
+                markLine(number, line_number + 1);
             } else if (statement.starts_with("#include")) {
                 append(includedFile(statement, place), place, depth + 1);
-                source_.text += "#line " + std::to_string(line_number + 1) + " " + number + "\n";
+                markLine(number, line_number + 1);
             } else {
                 source_.text += line + "\n";
             }
         }
+    }
+
+    void markLine(int file, int line) {
+        source_.text +=
+            "#line " + std::to_string(file * line_stride + line) + " " + std::to_string(file) + "\n";
     }
 
     static std::string includedFile(const std::string& statement, const std::string& place) {
@@ -101,11 +113,11 @@ class Preprocessor {
     const std::vector<std::filesystem::path>& roots_;
     const Defines& defines_;
     ShaderSource source_;
-    std::set<std::string> included_;
+    std::set<std::filesystem::path> included_;
 };
 
 // The first complaint of a compiler's log, its "file number:line" or "file number(line)" turned into the
-// file's name.
+// file's name and its own line; see line_stride.
 std::string firstComplaint(const std::string& log, const std::vector<std::string>& files) {
     std::istringstream lines(log);
     std::string line;
@@ -121,6 +133,10 @@ std::string firstComplaint(const std::string& log, const std::vector<std::string
         int line_number = 0;
         const auto [after_line, line_error] = std::from_chars(after_file + 1, end, line_number);
         if (line_error == std::errc()) {
+            if (const auto told = static_cast<std::size_t>(line_number / line_stride);
+                line_number > 0 && told < files.size() && told > 0)
+                file = told;
+            line_number %= line_stride;
             std::string_view rest(after_line, static_cast<std::size_t>(end - after_line));
             while (!rest.empty() && std::string_view(" :()0123456789").find(rest.front()) != rest.npos)
                 rest.remove_prefix(1); // a column, if any

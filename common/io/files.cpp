@@ -57,7 +57,8 @@ std::filesystem::path confinedFile(const std::filesystem::path& folder, std::str
     if (failure) throw fileError(where, quoted + "is missing, no such file as " + (folder / inside).string());
     if (std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first != root.end())
         throw fileError(where, quoted + "is a link out of the file's folder, copy what it points to");
-    if (!std::filesystem::is_regular_file(file)) throw fileError(where, quoted + "is not a regular file");
+    if (!std::filesystem::is_regular_file(file, failure))
+        throw fileError(where, quoted + "is not a regular file");
     return file;
 }
 

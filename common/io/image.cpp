@@ -333,7 +333,8 @@ void saveImage(const std::filesystem::path& path, const Image& image, bool full_
         format = Format::exr;
     else if (extension != ".png")
         throw fileError(name, "ends in '" + extension + "', name a .png, .exr or .hdr file");
-    if (std::filesystem::is_directory(path)) throw fileError(name, "is a folder, name a file in it");
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) throw fileError(name, "is a folder, name a file in it");
     writeWhole(path, namingTheFile(name, [&] { return encode(format, image, full_float, name); }));
 }
 

@@ -9,19 +9,19 @@ layout(location = 4) in float instance_phase; // [0, 1)
 layout(location = 5) in float instance_glows; // 0 or 1
 
 uniform mat4 clip_from_world;
+uniform vec3 camera_position; // world
 uniform float time_s;
 uniform float emissive_boost; // how many times brighter a glowing cube is
 
-out vec3 world_position;
-flat out vec3 world_normal; // unit length
-flat out vec3 lit_color;    // key and ambient light, linear
-flat out vec3 rim_color;    // the rim light at its strongest, linear
+out vec3 to_camera;          // world, not normalised
+flat out float facing;       // to_camera along the face's normal: the same all over the face
+flat out vec3 lit_color;     // key and ambient light, linear
+flat out float boost;        // factor on all light of this cube
 
 const float two_pi = 6.2832;
 const vec3 to_key_light = normalize(vec3(0.5, 1.0, 0.3));
 const float key_intensity = 0.7;
 const float ambient_intensity = 0.25;
-const vec3 rim_light_color = 0.4 * vec3(0.25, 0.35, 0.55);
 
 // excerpt: scene_vertex
 void main() {
@@ -31,13 +31,14 @@ void main() {
     float s = sin(spin_rad);
     mat3 spin = mat3(c, 0.0, s, 0.0, 1.0, 0.0, -s, 0.0, c);
 
-    world_position = spin * (cube_position * size) + instance_offset;
-    world_normal = spin * cube_normal;
+    vec3 world_position = spin * (cube_position * size) + instance_offset;
+    vec3 world_normal = spin * cube_normal;
     gl_Position = clip_from_world * vec4(world_position, 1.0);
+    to_camera = camera_position - world_position;
+    facing = dot(world_normal, to_camera);
 
     float light = ambient_intensity + key_intensity * max(dot(world_normal, to_key_light), 0.0);
-    float boost = mix(1.0, emissive_boost, instance_glows);
-    lit_color = instance_color * light * boost;
-    rim_color = rim_light_color * boost;
+    boost = mix(1.0, emissive_boost, instance_glows);
+    lit_color = instance_color * light;
 }
 // end excerpt

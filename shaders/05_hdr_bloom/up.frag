@@ -8,20 +8,37 @@ uniform sampler2D source;
 out vec4 color;
 
 // excerpt: up
+#if UP_FILTER == UP_FILTER_TENT
+// [1 2 1] / 4 in either direction over bilinear fetches: nine of them as usually written. Together they weigh four
+// texels a direction, by how far (f) the pixel lies between the middle two:
+//     (1 - f) / 4,  (2 - f) / 4,  (1 + f) / 4,  f / 4
+// and a bilinear fetch placed between the first two, and one between the last two, weigh them just so. Four fetches
+// then do for nine, and the sum is the same.
+vec3 up() {
+    vec2 size = vec2(textureSize(source, 0));
+    vec2 texel = uv * size - 0.5;
+    vec2 f = fract(texel);
+    vec2 middle = texel - f + 0.5; // the centre of the texel before the pixel
+    vec2 first = (middle - 1.0 + (2.0 - f) / (3.0 - 2.0 * f)) / size;
+    vec2 last = (middle + 1.0 + f / (1.0 + 2.0 * f)) / size;
+    vec2 first_weight = 0.75 - 0.5 * f;
+    vec2 last_weight = 0.25 + 0.5 * f;
+    return first_weight.y * (first_weight.x * texture(source, first).rgb +
+                             last_weight.x * texture(source, vec2(last.x, first.y)).rgb) +
+           last_weight.y * (first_weight.x * texture(source, vec2(first.x, last.y)).rgb +
+                            last_weight.x * texture(source, last).rgb);
+}
+#else
 vec3 tap(float x, float y) { return texture(source, uv + vec2(x, y) / vec2(textureSize(source, 0))).rgb; }
 
 vec3 up() {
-#if UP_FILTER == UP_FILTER_TENT
-    // [1 2 1] / 4 in either direction, over bilinear fetches
-    vec3 corners = tap(-1.0, -1.0) + tap(1.0, -1.0) + tap(-1.0, 1.0) + tap(1.0, 1.0);
-    vec3 edges = tap(-1.0, 0.0) + tap(1.0, 0.0) + tap(0.0, -1.0) + tap(0.0, 1.0);
-    return 0.0625 * corners + 0.125 * edges + 0.25 * tap(0.0, 0.0);
-#elif UP_FILTER == UP_FILTER_4TAP
+#if UP_FILTER == UP_FILTER_4TAP
     return 0.25 * (tap(-0.5, -0.5) + tap(0.5, -0.5) + tap(-0.5, 0.5) + tap(0.5, 0.5));
 #elif UP_FILTER == UP_FILTER_BILINEAR
     return tap(0.0, 0.0);
 #endif
 }
+#endif
 // end excerpt
 
 void main() { color = vec4(up(), 1.0); }

@@ -1,0 +1,277 @@
+// Renders a rung's golden cases in one process and compares them with the blessed pictures; or blesses them.
+// Run by ctest for comparing and by tests/bless for blessing; a run that compares never writes a golden.
+#include "golden/case.hpp"
+#include "golden/report.hpp"
+#include "support/comparison.hpp"
+#include "support/process.hpp"
+#include "support/temporary_folder.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+
+namespace {
+using namespace gll;
+using namespace gll::test;
+namespace fs = std::filesystem;
+
+struct Task {
+    fs::path program; // the rung
+    fs::path goldens; // the folder with its cases
+    fs::path output;  // the folder for frames and the report
+};
+
+// Frames are only comparable from one rasteriser, so that is no choice of the environment's.
+const std::map<std::string, std::optional<std::string>> rasteriser = {{"GALLIUM_DRIVER", "llvmpipe"},
+                                                                      {"LIBGL_ALWAYS_SOFTWARE", "1"}};
+
+std::string lastLine(std::string text) {
+    while (!text.empty() && text.back() == '\n')
+        text.pop_back();
+    return text.substr(text.rfind('\n') + 1);
+}
+
+Result runRung(const Task& task, std::vector<std::string> arguments) {
+    Result result = run({task.program, std::move(arguments), rasteriser}, std::chrono::seconds(110));
+    if (result.exit_code != 0)
+        throw std::runtime_error("the rung ended with " + std::to_string(result.exit_code) + ": " +
+                                 lastLine(result.err));
+    return result;
+}
+
+// All frames from one process, because starting one takes longer than a frame.
+std::vector<Image> renderAll(const Task& task, const std::vector<nlohmann::ordered_json>& requests) {
+    const TemporaryFolder folder;
+    std::string lines;
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+        nlohmann::ordered_json line = requests[i];
+        line["out"] = (folder / (std::to_string(i) + ".png")).string();
+        lines += line.dump() + "\n";
+    }
+    runRung(task, {"--context", "osmesa", "--batch", folder.write("batch.jsonl", lines).string()});
+    std::vector<Image> images;
+    for (std::size_t i = 0; i < requests.size(); ++i)
+        images.push_back(loadImage(folder / (std::to_string(i) + ".png")));
+    return images;
+}
+
+std::string rendererOf(const Task& task) {
+    const auto json = nlohmann::json::parse(runRung(task, {"--settings", "--json"}).out);
+    if (!json.contains("renderer")) throw std::runtime_error("no OpenGL context: " + json.dump());
+    return json.at("renderer");
+}
+
+std::vector<nlohmann::ordered_json> requestsOf(const std::vector<GoldenCase>& cases) {
+    std::vector<nlohmann::ordered_json> requests;
+    for (const GoldenCase& golden : cases)
+        requests.push_back(golden.request);
+    return requests;
+}
+
+// Pictures without a description would never be compared with anything.
+std::vector<std::string> orphans(const fs::path& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".png" &&
+            !fs::exists(fs::path(entry.path()).replace_extension(".json")))
+            names.push_back(entry.path().filename().string());
+    return names;
+}
+
+int check(const Task& task) {
+    const std::string rung = task.program.filename().string();
+    const std::vector<GoldenCase> cases = readCases(task.goldens);
+    if (cases.empty()) throw std::runtime_error(task.goldens.string() + ": no golden case; see tests/bless");
+    fs::remove_all(task.output);
+    fs::create_directories(task.output);
+    const std::vector<Image> frames = renderAll(task, requestsOf(cases));
+    std::vector<ReportEntry> entries;
+    int failures = 0;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const GoldenCase& golden = cases[i];
+        const Image& frame = frames[i];
+        const std::string hash = pixelHash(frame);
+        const fs::path reference_file = task.goldens / (golden.name + ".png");
+        const bool has_reference = fs::exists(reference_file) && !golden.blessed.empty();
+        // A picture that is not the one its .json blesses would lead whoever looks at it astray.
+        if (has_reference && !golden.isBlessed(pixelHash(loadImage(reference_file)))) {
+            std::printf("%s failed: its .png is none that its .json blesses\n", golden.name.c_str());
+            ++failures;
+        }
+        if (has_reference && golden.isBlessed(hash)) continue;
+
+        ReportEntry entry{
+            .name = golden.name, .request = golden.request.dump(), .image = golden.name + ".new.png"};
+        saveImage(task.output / entry.image, frame);
+        if (!has_reference) {
+            entry.verdict = "failed: there is no blessed picture; look at the frame, then tests/bless " +
+                            rung + " " + golden.name;
+            ++failures;
+            std::printf("%s %s\n", golden.name.c_str(), entry.verdict.c_str());
+            entries.push_back(entry);
+            continue;
+        }
+        const Image reference = loadImage(reference_file);
+        const Comparison comparison = compare(reference, frame);
+        const bool tolerable = comparison.tolerable();
+        entry.verdict =
+            (tolerable ? "warning, tolerated: " : "failed: ") + comparison.summary() + ", hash " + hash;
+        failures += tolerable ? 0 : 1;
+        std::printf("%s %s\n%s", golden.name.c_str(), entry.verdict.c_str(), comparison.map().c_str());
+        entry.reference = golden.name + ".reference.png";
+        entry.difference = golden.name + ".difference.png";
+        fs::copy_file(reference_file, task.output / entry.reference);
+        saveImage(task.output / entry.difference, amplifiedDifference(reference, frame));
+        entries.push_back(entry);
+    }
+    for (const std::string& name : orphans(task.goldens)) {
+        std::printf("%s failed: there is no .json beside it\n", name.c_str());
+        ++failures;
+    }
+    std::printf("%zu frames of %s: %zu as blessed, %d failed\n", cases.size(), rung.c_str(),
+                cases.size() - entries.size(), failures);
+    if (!entries.empty()) {
+        std::printf("drawn by %s\n", rendererOf(task).c_str());
+        writeReport(task.output / "index.html", rung + ", golden frames", entries);
+        std::printf("see %s\n", (task.output / "index.html").c_str());
+    }
+    return failures == 0 ? 0 : 1;
+}
+
+// Small changes that a golden must notice; the comparison would be worth nothing if it let one through.
+int checkMutations(const Task& task) {
+    const fs::path file = task.goldens / "mutations.json";
+    std::ifstream stream(file);
+    if (!stream) throw std::runtime_error(file.string() + ": is not there");
+    const auto mutations = nlohmann::ordered_json::parse(stream);
+    std::vector<nlohmann::ordered_json> requests;
+    for (const auto& mutation : mutations) {
+        nlohmann::ordered_json request =
+            readCase(task.goldens / (mutation.at("case").get<std::string>() + ".json")).request;
+        for (const auto& [name, value] : mutation.at("set").items())
+            request["set"][name] = value;
+        requests.push_back(request);
+    }
+    if (requests.empty()) throw std::runtime_error(file.string() + ": holds no mutation");
+    const std::vector<Image> frames = renderAll(task, requests);
+    int failures = 0;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const auto name = mutations[i].at("case").get<std::string>();
+        const Comparison comparison = compare(loadImage(task.goldens / (name + ".png")), frames[i]);
+        const bool noticed = !comparison.tolerable();
+        std::printf("%s: %s with %s: %s\n", noticed ? "noticed" : "NOT NOTICED", name.c_str(),
+                    mutations[i].at("set").dump().c_str(), comparison.summary().c_str());
+        failures += noticed ? 0 : 1;
+    }
+    return failures == 0 ? 0 : 1;
+}
+
+std::string today() {
+    const std::time_t now = std::time(nullptr);
+    char text[16];
+    std::strftime(text, sizeof text, "%Y-%m-%d", std::gmtime(&now));
+    return text;
+}
+
+void blessOne(const Task& task, GoldenCase golden, const Image& frame, const std::string& renderer) {
+    const fs::path picture = task.goldens / (golden.name + ".png");
+    const std::string hash = pixelHash(frame);
+    const bool is_new = !fs::exists(picture) || golden.blessed.empty();
+    if (!is_new && golden.isBlessed(hash)) {
+        std::printf("%s: blessed already\n", golden.name.c_str());
+        return;
+    }
+    if (!is_new) {
+        const Comparison comparison = compare(loadImage(picture), frame);
+        std::printf("%s: %s\n%s", golden.name.c_str(), comparison.summary().c_str(),
+                    comparison.map().c_str());
+        const bool other_renderer =
+            std::none_of(golden.blessed.begin(), golden.blessed.end(),
+                         [&](const Blessing& one) { return one.renderer == renderer; });
+        if (comparison.tolerable() && other_renderer) {
+            // The same picture as another renderer draws it: both are right, and the picture stays.
+            golden.blessed.push_back({hash, renderer, today()});
+            writeCase(task.goldens / (golden.name + ".json"), golden);
+            std::printf("%s: its hash on %s added\n", golden.name.c_str(), renderer.c_str());
+            return;
+        }
+    }
+    golden.blessed = {{hash, renderer, today()}};
+    fs::create_directories(task.goldens);
+    saveImage(picture, frame);
+    writeCase(task.goldens / (golden.name + ".json"), golden);
+    std::printf("%s: %s\n", golden.name.c_str(), is_new ? "new picture" : "picture replaced");
+}
+
+int bless(const Task& task, const std::vector<std::string>& names, const nlohmann::ordered_json& settings) {
+    const char* ci = std::getenv("CI");
+    if (ci != nullptr && *ci != '\0' && std::string(ci) != "false")
+        throw std::runtime_error("blessing is for people who have looked at the pictures; CI is set here");
+    std::vector<GoldenCase> cases;
+    if (!settings.empty()) {
+        if (names.size() != 1) throw std::runtime_error("settings describe one new case; name it");
+        if (fs::exists(task.goldens / (names[0] + ".json")))
+            throw std::runtime_error(names[0] + " is there already; change its .json instead");
+        cases = {{.name = names[0], .request = settings, .blessed = {}}};
+        if (!cases[0].request.contains("frame")) cases[0].request["frame"] = 60;
+        if (!cases[0].request.contains("size")) cases[0].request["size"] = "320x240";
+    } else if (names.empty()) {
+        cases = readCases(task.goldens);
+    } else {
+        for (const std::string& name : names)
+            cases.push_back(readCase(task.goldens / (name + ".json")));
+    }
+    if (cases.empty()) throw std::runtime_error(task.goldens.string() + ": no case to bless");
+    const std::vector<Image> frames = renderAll(task, requestsOf(cases));
+    const std::string renderer = rendererOf(task);
+    for (std::size_t i = 0; i < cases.size(); ++i)
+        blessOne(task, cases[i], frames[i], renderer);
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Checks a rung's golden frames, or blesses them.", "golden");
+    Task task;
+    std::vector<std::string> names;
+    bool mutations = false;
+    bool blesses = false;
+    int frame = 0;
+    std::string size;
+    std::string preset;
+    std::string target;
+    std::vector<std::string> sets;
+    app.add_option("--program", task.program, "the rung")->required();
+    app.add_option("--goldens", task.goldens, "the folder with its cases")->required();
+    app.add_option("--output", task.output, "the folder for frames and the report");
+    app.add_flag("--mutations", mutations, "check that small changes are noticed");
+    app.add_flag("--bless", blesses, "accept the frames as they are now");
+    app.add_option("--frame", frame, "of a new case: the frame");
+    app.add_option("--size", size, "of a new case: WxH");
+    app.add_option("--preset", preset, "of a new case: the preset");
+    app.add_option("--target", target, "of a new case: the target");
+    app.add_option("--set", sets, "of a new case: KEY=VALUE, may be repeated")->take_all()->expected(1);
+    app.add_option("case", names, "with --bless: the cases, or all");
+    CLI11_PARSE(app, argc, argv);
+    try {
+        nlohmann::ordered_json settings;
+        if (frame != 0) settings["frame"] = frame;
+        if (!size.empty()) settings["size"] = size;
+        if (!preset.empty()) settings["preset"] = preset;
+        if (!target.empty()) settings["target"] = target;
+        for (const std::string& set : sets) {
+            const auto equals = set.find('=');
+            if (equals == std::string::npos) throw std::runtime_error("--set " + set + ": write KEY=VALUE");
+            settings["set"][set.substr(0, equals)] = set.substr(equals + 1);
+        }
+        if (blesses) return bless(task, names, settings);
+        return mutations ? checkMutations(task) : check(task);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "golden: error: %s\n", error.what());
+        return 1;
+    }
+}

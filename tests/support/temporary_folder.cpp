@@ -1,0 +1,40 @@
+// Making temporary folders and removing them again.
+#include "support/temporary_folder.hpp"
+
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+namespace gll::test {
+namespace fs = std::filesystem;
+
+TemporaryFolder::TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "gl-ladder-test-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": no folder can be made there");
+    path_ = fs::canonical(name);
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+}
+
+fs::path TemporaryFolder::write(const fs::path& name, std::string_view text) const {
+    const fs::path path = path_ / name;
+    fs::create_directories(path.parent_path());
+    std::ofstream stream(path, std::ios::binary);
+    stream << text;
+    stream.close();
+    if (!stream) throw std::runtime_error(path.string() + ": cannot be written");
+    return path;
+}
+
+std::size_t TemporaryFolder::count() const {
+    std::size_t entries = 0;
+    for ([[maybe_unused]] const auto& entry : fs::recursive_directory_iterator(path_))
+        ++entries;
+    return entries;
+}
+
+} // namespace gll::test

@@ -1,0 +1,28 @@
+// A folder that is there as long as its object lives.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace gll::test {
+
+class TemporaryFolder {
+  public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+    std::filesystem::path operator/(const std::filesystem::path& name) const { return path_ / name; }
+
+    // Writes a file, and the folders that it lies in; returns its path.
+    std::filesystem::path write(const std::filesystem::path& name, std::string_view text) const;
+    // How many files and folders lie in it, at any depth.
+    std::size_t count() const;
+
+  private:
+    std::filesystem::path path_;
+};
+
+} // namespace gll::test
