@@ -79,8 +79,8 @@ double ear(const Vec3& head_point) {
     p = turnedY(p, 0.50); // the opening looks forward and outward
     const double flatness = 0.58;
     const Vec3 flat{p.x, p.y, p.z / flatness};
-    const double shell = roundCone(flat, {0.0, 0.0, 0.0}, {0.006, 0.126, -0.014}, 0.064, 0.010);
-    const Vec3 hollow_point{p.x, p.y, (p.z - 0.032) / flatness};
+    const double shell = roundCone(flat, {0.0, 0.0, 0.0}, {0.006, 0.126, -0.014}, 0.064, 0.011);
+    const Vec3 hollow_point{p.x, p.y, (p.z - 0.031) / flatness};
     const double hollow = roundCone(hollow_point, {0.0, 0.012, 0.0}, {0.006, 0.098, -0.012}, 0.046, 0.006);
     return smoothCut(shell * 0.75, hollow * 0.75, 0.010);
 }
@@ -130,10 +130,10 @@ double head(const Vec3& p) {
     const Vec3 m = mirrored(p);
     double d = smoothUnion(skull(p), ear(m), 0.022);
     // The eye: a hollow between the lids, an eyeball that fills it but for a groove, and two lids round it.
-    const Vec3 e = turnedY(turnedZ(m - eye, -0.34), 0.46);
-    d = smoothCut(d, ellipsoid(e - Vec3{0.0, 0.0, 0.004}, {0.033, 0.0205, 0.016}), 0.008);
-    d = smoothUnion(d, ellipsoid(e - Vec3{0.0, 0.0, -0.0185}, {0.036, 0.026, 0.021}), 0.003);
-    d = smoothCut(d, ellipsoid(e - Vec3{0.002, 0.0, 0.004}, {0.0065, 0.0135, 0.0065}), 0.004); // pupil
+    const Vec3 e = turnedY(turnedZ(m - eye, -0.34), 0.58);
+    d = smoothCut(d, ellipsoid(e - Vec3{0.002, 0.0, 0.004}, {0.030, 0.0200, 0.012}), 0.008);
+    d = smoothUnion(d, ellipsoid(e - Vec3{-0.001, 0.0, -0.0200}, {0.038, 0.028, 0.0235}), 0.006);
+    d = smoothCut(d, ellipsoid(e - Vec3{0.002, 0.0, 0.005}, {0.0062, 0.0135, 0.0060}), 0.004); // pupil
     d = smoothUnion(d, drawn(m, upper_lid, 0.0040), 0.012);
     d = smoothUnion(d, drawn(m, lower_lid, 0.0028), 0.010);
     d = smoothCut(d, drawn(m, mouth, 0.0036), 0.006);

@@ -97,6 +97,26 @@ class Remesher {
         }
     }
 
+    /// Collapses the shortest edge of every triangle with an angle below the limit.
+    void removeSlivers(double min_angle_deg) {
+        const double limit = std::cos(glm::radians(min_angle_deg));
+        for (std::size_t t = 0; t < triangles_.size(); ++t) {
+            if (triangles_[t][0] < 0) continue;
+            const auto [i, j, k] = triangles_[t];
+            if (minAngleCosine(position(i), position(j), position(k)) < limit) continue;
+            const double ij = glm::distance(position(i), position(j));
+            const double jk = glm::distance(position(j), position(k));
+            const double ki = glm::distance(position(k), position(i));
+            if (ij <= jk && ij <= ki) {
+                collapse(i, j);
+            } else if (jk <= ki) {
+                collapse(j, k);
+            } else {
+                collapse(k, i);
+            }
+        }
+    }
+
     /// Flips the edges whose opposite angles sum to more than 180 degrees (Delaunay) or, with `by_valence`,
     /// those whose flip brings the four valences nearer to six.
     void flipEdges(bool by_valence) {
@@ -131,7 +151,8 @@ class Remesher {
             const Vec3 candidate_normal = catNormal(candidate);
             const int vertex = static_cast<int>(v);
             const bool sound = std::all_of(fans_[v].begin(), fans_[v].end(), [&](int t) {
-                return staysSound(triangle(t), vertex, candidate, candidate_normal);
+                return facesOut(triangle(t), vertex, candidate, candidate_normal) &&
+                       staysWide(triangle(t), vertex, candidate);
             });
             if (!sound) continue;
             positions_[v] = candidate;
@@ -148,12 +169,30 @@ class Remesher {
         // Over a length near the triangles' own, so that a groove finer than they are tilts no normal; the
         // normal map holds what is left.
         for (const Vec3& p : mesh.positions)
-            mesh.normals.push_back(catNormal(p, 3e-3));
+            mesh.normals.push_back(catNormal(p, 2e-3));
+        std::vector<Vec3> mean(mesh.positions.size(), Vec3{0.0});
+        std::vector<double> agreement(mesh.positions.size(), 1.0);
+        for (const Triangle& t : mesh.triangles) {
+            const auto at = [&](std::size_t k) { return mesh.positions[static_cast<std::size_t>(t[k])]; };
+            const Vec3 facing = scaledNormal(at(0), at(1), at(2));
+            for (const int corner : t) {
+                const auto v = static_cast<std::size_t>(corner);
+                mean[v] += facing;
+                agreement[v] =
+                    std::min(agreement[v], glm::dot(mesh.normals[v], facing) / glm::length(facing));
+            }
+        }
+        // In a crease the field has two normals: there the triangles decide.
+        for (std::size_t v = 0; v < mean.size(); ++v) {
+            if (agreement[v] < 0.35) mesh.normals[v] = glm::normalize(mean[v]);
+        }
         return mesh;
     }
 
   private:
     using Edge = std::pair<int, int>;
+
+    static constexpr double sliver_cosine = 0.95; // 18 degrees
 
     const Vec3& position(int v) const { return positions_[static_cast<std::size_t>(v)]; }
     const Vec3& normal(int v) const { return normals_[static_cast<std::size_t>(v)]; }
@@ -223,10 +262,24 @@ class Remesher {
         return size > 1e-14 ? glm::dot(facing, mean) / size : -1.0;
     }
 
+    /// Cosine of the triangle's smallest angle, once `vertex` has moved.
+    double sharpness(const Triangle& t, int vertex, const Vec3& to) const {
+        std::array<Vec3, 3> corner;
+        for (std::size_t k = 0; k < 3; ++k)
+            corner[k] = t[k] == vertex ? to : position(t[k]);
+        return minAngleCosine(corner[0], corner[1], corner[2]);
+    }
+
     /// Whether the move leaves the triangle facing outward, or at least better than it did.
-    bool staysSound(const Triangle& t, int vertex, const Vec3& to, const Vec3& to_normal) const {
+    bool facesOut(const Triangle& t, int vertex, const Vec3& to, const Vec3& to_normal) const {
         const double after = agreement(t, vertex, to, to_normal);
         return after > 0.6 || after > agreement(t, vertex, position(vertex), normal(vertex));
+    }
+
+    /// Whether the move makes no sliver, or at least a lesser one than there was.
+    bool staysWide(const Triangle& t, int vertex, const Vec3& to) const {
+        const double after = sharpness(t, vertex, to);
+        return after < sliver_cosine || after < sharpness(t, vertex, position(vertex));
     }
 
     void split(int a, int b) {
@@ -267,7 +320,7 @@ class Remesher {
         for (const int end : {a, b}) {
             for (const int t : fan(end)) {
                 if (t == t0 || t == t1) continue;
-                if (!staysSound(triangle(t), end, to, to_normal)) return;
+                if (!facesOut(triangle(t), end, to, to_normal)) return;
                 for (const int v : triangle(t)) {
                     if (v != end && glm::distance(position(v), to) > 1.4 * length) return;
                 }
@@ -420,8 +473,9 @@ Mesh remesh(const Mesh& mesh, const std::function<double(const Vec3&)>& target_l
         work.flipEdges(true);
         work.relax();
     }
-    // The last rounds only better the angles: no more vertices come or go.
+    // The last rounds only better the angles.
     for (int round = 0; round < 4; ++round) {
+        work.removeSlivers(20.0);
         work.flipEdges(false);
         work.relax();
     }
@@ -459,7 +513,10 @@ MeshReport inspect(const Mesh& mesh) {
         report.area += 0.5 * glm::length(facing);
         report.volume += glm::dot(at(0), glm::cross(at(1), at(2))) / 6.0;
         const double angle_deg = glm::degrees(std::acos(std::min(1.0, minAngleCosine(at(0), at(1), at(2)))));
-        report.min_angle_deg = std::min(report.min_angle_deg, angle_deg);
+        if (angle_deg < report.min_angle_deg) {
+            report.min_angle_deg = angle_deg;
+            report.sharpest_at = at(0);
+        }
         angle_sum += angle_deg;
         if (angle_deg < 30.0) ++below_30;
         for (std::size_t k = 0; k < 3; ++k) {

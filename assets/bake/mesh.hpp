@@ -23,6 +23,7 @@ struct MeshReport {
     double volume = 0.0;          ///< positive if the triangles face outward
     double area = 0.0;
     double min_angle_deg = 0.0;
+    Vec3 sharpest_at{0.0};             ///< a corner of the triangle that has it
     double mean_min_angle_deg = 0.0;   ///< mean over the triangles of their smallest angle; 60 is perfect
     double share_below_30_deg = 0.0;   ///< share of the triangles whose smallest angle is below 30 degrees
     double max_surface_distance = 0.0; ///< of the vertices, in statue heights

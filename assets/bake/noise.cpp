@@ -3,6 +3,7 @@
 #include "noise.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace bake {
@@ -22,35 +23,24 @@ std::int32_t wrapped(std::int32_t i, int period) {
 
 double fade(double t) { return t * t * t * (t * (t * 6.0 - 15.0) + 10.0); }
 
-/// Perlin's twelve edge directions, chosen by the hash.
-double slope(std::uint32_t h, double x, double y, double z) {
-    switch (h % 12u) {
-    case 0:
-        return x + y;
-    case 1:
-        return -x + y;
-    case 2:
-        return x - y;
-    case 3:
-        return -x - y;
-    case 4:
-        return x + z;
-    case 5:
-        return -x + z;
-    case 6:
-        return x - z;
-    case 7:
-        return -x - z;
-    case 8:
-        return y + z;
-    case 9:
-        return -y + z;
-    case 10:
-        return y - z;
-    default:
-        return -y - z;
-    }
-}
+/// Perlin's twelve edge directions, four of them twice, so that the hash's low bits choose without a
+/// division.
+constexpr std::array<glm::dvec3, 16> directions{{{1, 1, 0},
+                                                 {-1, 1, 0},
+                                                 {1, -1, 0},
+                                                 {-1, -1, 0},
+                                                 {1, 0, 1},
+                                                 {-1, 0, 1},
+                                                 {1, 0, -1},
+                                                 {-1, 0, -1},
+                                                 {0, 1, 1},
+                                                 {0, -1, 1},
+                                                 {0, 1, -1},
+                                                 {0, -1, -1},
+                                                 {1, 1, 0},
+                                                 {-1, 1, 0},
+                                                 {0, -1, 1},
+                                                 {0, -1, -1}}};
 
 double mix(double a, double b, double t) { return a + (b - a) * t; }
 
@@ -82,14 +72,27 @@ double gradientNoise(const glm::dvec3& p, std::uint32_t seed, const glm::ivec3& 
     const double u = fade(x);
     const double v = fade(y);
     const double w = fade(z);
-    const auto corner = [&](std::int32_t cx, std::int32_t cy, std::int32_t cz, double dx, double dy,
-                            double dz) { return slope(hash(cx, cy, cz, seed), dx, dy, dz); };
+    // hash(), its rounds shared between the corners.
+    const auto round = [](std::uint32_t h, std::int32_t c) {
+        return permute(h + static_cast<std::uint32_t>(c));
+    };
+    const std::uint32_t h0 = permute(static_cast<std::uint32_t>(x0) + seed);
+    const std::uint32_t h1 = permute(static_cast<std::uint32_t>(x1) + seed);
+    const std::uint32_t h00 = round(h0, y0);
+    const std::uint32_t h10 = round(h1, y0);
+    const std::uint32_t h01 = round(h0, y1);
+    const std::uint32_t h11 = round(h1, y1);
+    const auto corner = [&](std::uint32_t h, std::int32_t cz, double dx, double dy, double dz) {
+        const glm::dvec3& d = directions[round(h, cz) & 15u];
+        return d.x * dx + d.y * dy + d.z * dz;
+    };
     const double bottom =
-        mix(mix(corner(x0, y0, z0, x, y, z), corner(x1, y0, z0, x - 1.0, y, z), u),
-            mix(corner(x0, y1, z0, x, y - 1.0, z), corner(x1, y1, z0, x - 1.0, y - 1.0, z), u), v);
-    const double top = mix(
-        mix(corner(x0, y0, z1, x, y, z - 1.0), corner(x1, y0, z1, x - 1.0, y, z - 1.0), u),
-        mix(corner(x0, y1, z1, x, y - 1.0, z - 1.0), corner(x1, y1, z1, x - 1.0, y - 1.0, z - 1.0), u), v);
+        mix(mix(corner(h00, z0, x, y, z), corner(h10, z0, x - 1.0, y, z), u),
+            mix(corner(h01, z0, x, y - 1.0, z), corner(h11, z0, x - 1.0, y - 1.0, z), u), v);
+    const double above = z - 1.0;
+    const double top =
+        mix(mix(corner(h00, z1, x, y, above), corner(h10, z1, x - 1.0, y, above), u),
+            mix(corner(h01, z1, x, y - 1.0, above), corner(h11, z1, x - 1.0, y - 1.0, above), u), v);
     return mix(bottom, top, w);
 }
 

@@ -85,11 +85,11 @@ dvec3 cloudySky(const dvec3& direction) {
     const dvec3 q = dvec3{direction.x, 0.35, direction.z} / (up + 0.22);
     const dvec3 bent = q + 0.35 * dvec3{fractalNoise(q * 1.3, 3, 3), 0.0, fractalNoise(q * 1.3 + 9.0, 3, 5)};
     const double puffs = fractalNoise(bent * dvec3{1.5, 1.0, 2.1}, 6, 7, 0.55);
-    const double where = smoothStep(-0.25, 0.25, fractalNoise(q * 0.55, 2, 11));
-    const double cover = smoothStep(0.02, 0.42, puffs) * where * smoothStep(0.02, 0.22, up);
+    const double where = smoothStep(-0.40, 0.12, fractalNoise(q * 0.55, 2, 11));
+    const double cover = smoothStep(-0.02, 0.40, puffs) * where * smoothStep(0.02, 0.22, up);
     const double facing_sun = std::max(glm::dot(direction, sunDirection()), 0.0);
     // Forward scattering: a cloud before the sun shines. Thick parts turn grey.
-    const double glow = 1.25 + 0.9 * std::pow(facing_sun, 6.0) - 0.55 * smoothStep(0.5, 1.0, cover);
+    const double glow = 1.60 + 0.9 * std::pow(facing_sun, 6.0) - 0.30 * smoothStep(0.5, 1.0, cover);
     const dvec3 white = dvec3{1.02, 1.0, 0.97} * glow;
     return glm::mix(clear, white, 0.82 * cover);
 }
