@@ -189,13 +189,13 @@ void bakeBrick(const std::filesystem::path& folder) {
     const auto uv_of = [](int x, int y) {
         return dvec2{(x + 0.5) / resolution, 1.0 - (y + 0.5) / resolution};
     };
-    Field brick;
+    std::vector<Wall> walls(static_cast<std::size_t>(resolution) * resolution);
     forEachRow(resolution, [&](int y) {
         for (int x = 0; x < resolution; ++x) {
             const dvec2 uv = uv_of(x, y);
             const Wall w = wall(uv);
             height(x, y) = w.height;
-            brick(x, y) = w.brick;
+            walls[static_cast<std::size_t>(y) * resolution + static_cast<std::size_t>(x)] = w;
             const double worn = tiled(uv, 16, 4, 83);
             const double on_brick = 0.78 + 0.16 * worn - 0.10 * (w.lot[3] - 0.5) + 0.10 * w.chip;
             // In steps of 3: no eye sees them, and the file is half the size.
@@ -220,8 +220,9 @@ void bakeBrick(const std::filesystem::path& folder) {
             const double open = std::clamp(openness(height, x, y), 0.0, 1.0);
             occlusion.set(x, y, std::round(open * 85.0) / 85.0);
             const dvec2 uv = uv_of(x, y);
-            const Wall w = wall(uv);
-            dvec3 color = glm::mix(mortarColor(uv), brickColor(w, uv), brick(x, y));
+            const Wall& w = walls[static_cast<std::size_t>(y) * resolution + static_cast<std::size_t>(x)];
+            dvec3 color = w.brick > 0.0 ? brickColor(w, uv) : dvec3{0.0};
+            if (w.brick < 1.0) color = glm::mix(mortarColor(uv), color, w.brick);
             // Dirt stays where the rain does not reach, and weather passes over all of it.
             color *= 0.62 + 0.38 * smoothStep(0.30, 0.85, open);
             color *= 1.0 + 0.22 * tiled(uv, 3, 3, 89);

@@ -136,17 +136,17 @@ Flaws flaws(const Vec3& p) {
     const double radius = cell.id < 0.40 ? 0.12 + 0.42 * cell.id : 0.0;
     const double pore = radius > 0.0 ? 1.0 - smoothStep(0.55 * radius, radius, cell.nearest) : 0.0;
     // Few and fine: the noise behind the mask is read only where a crack may be.
-    const double where = smoothStep(0.22, 0.36, fractalNoise(p * 2.6 + crack_shift, 2, 29));
+    const double where = smoothStep(0.24, 0.38, fractalNoise(p * 2.6 + crack_shift, 2, 29));
     if (where == 0.0) return {pore, 0.0};
-    const double line = std::abs(fractalNoise(p * 3.1 + 7.0, 4, 23, 0.48));
-    return {pore, where * (1.0 - smoothStep(0.002, 0.010, line))};
+    const double line = std::abs(fractalNoise(p * 3.1 + 7.0, 6, 23, 0.55));
+    return {pore, where * (1.0 - smoothStep(0.001, 0.0075, line))};
 }
 
 /// Relief of the cast surface, in statue heights along the normal.
 double relief(const Vec3& p) {
     const Flaws f = flaws(p);
     return 0.0013 * fractalNoise(p * 24.0, 3, 41) + 0.00048 * fractalNoise(p * 120.0, 2, 43) -
-           0.0022 * f.pore - 0.0018 * f.crack;
+           0.0022 * f.pore - 0.0012 * f.crack;
 }
 
 Vec3 reliefNormal(const Vec3& p, const Vec3& n) {
@@ -182,7 +182,7 @@ Concrete concrete(const Vec3& p, const Vec3& n, double open) {
 
     const double steep = 1.0 - std::abs(n.y);
     const double run = fractalNoise(Vec3{p.x * 17.0, p.y * 1.7, p.z * 17.0}, 4, 67);
-    color *= 1.0 - 0.30 * steep * smoothStep(0.06, 0.42, run);
+    color *= 1.0 - 0.36 * steep * smoothStep(0.04, 0.36, run);
     color *= 1.0 + 0.16 * steep * smoothStep(0.10, 0.45, -run);
     const double edge = fractalNoise(p * 9.0, 4, 71);
     // Soot and dust gather where the sky is hidden; the tops are washed.
@@ -192,7 +192,7 @@ Concrete concrete(const Vec3& p, const Vec3& n, double open) {
     const double damp = 1.0 - smoothStep(0.01, 0.11, p.y + 0.07 * edge);
     color *= glm::mix(Vec3{1.0}, Vec3{0.66, 0.64, 0.60}, damp);
     color *= 1.0 - 0.45 * f.pore;
-    color *= 1.0 - 0.58 * f.crack;
+    color *= 1.0 - 0.48 * f.crack;
 
     double roughness = 0.84 + 0.10 * fractalNoise(p * 14.0, 3, 73) - 0.08 * smoothStep(0.75, 1.0, open) +
                        0.08 * (f.pore + f.crack);

@@ -227,13 +227,21 @@ double body(const Vec3& p) {
 } // namespace
 
 double catDistance(const Vec3& position) {
-    double d = body(position);
     constexpr double head_scale = 1.10;
-    Vec3 head_point = (position - Vec3{0.0, 0.800, 0.085}) / head_scale;
-    head_point = turnedY(head_point, 0.16); // looks a little to its left, over the tail
-    head_point = turnedX(head_point, -0.03);
-    d = smoothUnion(d, head(head_point) * head_scale, 0.030);
-    d = smoothUnion(d, tail(position), 0.022);
+    constexpr double head_reach = 0.30; // of the ear tips, from the head's centre
+    constexpr double head_blend = 0.030;
+    constexpr double tail_top = 0.15;
+    constexpr double tail_blend = 0.022;
+    double d = body(position);
+    // Parts too far away to reach into the blend are not asked: three quarters of the time.
+    const Vec3 from_head = position - Vec3{0.0, 0.800, 0.085};
+    if (glm::length(from_head) - head_reach < d + head_blend) {
+        Vec3 head_point = from_head / head_scale;
+        head_point = turnedY(head_point, 0.16); // looks a little to its left, over the tail
+        head_point = turnedX(head_point, -0.03);
+        d = smoothUnion(d, head(head_point) * head_scale, head_blend);
+    }
+    if (position.y - tail_top < d + tail_blend) d = smoothUnion(d, tail(position), tail_blend);
     // The base: cut by the ground, with a worn edge.
     return smoothIntersection(d, -position.y, 0.012);
 }

@@ -28,7 +28,7 @@ constexpr double beam_to_sky = 2.6;
 constexpr double sun_radius_deg = 0.60; // the disc's real 0.27, blurred until it covers texels
 const dvec3 luminance_weights{0.2126, 0.7152, 0.0722};
 const dvec3 sun_color{1.06, 0.995, 0.87}; // luminance 1
-const dvec3 ground_albedo{0.205, 0.175, 0.140};
+const dvec3 ground_albedo{0.215, 0.175, 0.128};
 
 dvec3 sunDirection() {
     const double elevation_rad = glm::radians(sun_elevation_deg);
