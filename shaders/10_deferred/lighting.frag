@@ -7,6 +7,9 @@
 #if ENVIRONMENT
 #include "10_deferred/environment.glsl"
 #endif
+#if SSAO != SSAO_OFF && SSAO_RESOLUTION == SSAO_RESOLUTION_HALF
+#include "10_deferred/same_surface.glsl"
+#endif
 
 in vec2 uv;
 
@@ -14,7 +17,10 @@ in vec2 uv;
 uniform vec3 camera_position; // world
 #endif
 #if SSAO != SSAO_OFF
-uniform sampler2D ssao_map;   // [0, 1]
+uniform sampler2D ssao_map; // r: [0, 1]; at half resolution also g: view z
+#if SSAO_RESOLUTION == SSAO_RESOLUTION_HALF
+uniform vec4 view_z_from_world;
+#endif
 #endif
 #if SUN
 uniform vec3 to_sun;          // world, unit length
@@ -80,6 +86,31 @@ vec3 reflectedLight(Surface surface, vec3 to_camera) {
 // end excerpt
 #endif
 
+// excerpt: upsample
+#if SSAO == SSAO_OFF
+float visibilityAt(vec3 world_position) { return 1.0; }
+#elif SSAO_RESOLUTION == SSAO_RESOLUTION_FULL
+float visibilityAt(vec3 world_position) { return textureLod(ssao_map, uv, 0.0).r; }
+#else
+// Every second pixel has its own; those between take what the neighbours on their surface have.
+float visibilityAt(vec3 world_position) {
+    float view_z = dot(view_z_from_world, vec4(world_position, 1.0));
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    ivec2 low = pixel >> 1;
+    ivec2 high = min(low + (pixel & 1), textureSize(ssao_map, 0) - 1);
+    float sum = 0.0;
+    float weights = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        vec2 other = texelFetch(ssao_map, ivec2((i & 1) == 0 ? low.x : high.x, (i & 2) == 0 ? low.y : high.y), 0).rg;
+        float weight = sameSurface(view_z, other.g) + 1e-3; // where none is near, all count alike
+        sum += weight * other.r;
+        weights += weight;
+    }
+    return sum / weights;
+}
+#endif
+// end excerpt
+
 // excerpt: lighting
 vec3 litColor(Surface surface, float visibility) {
     vec3 to_camera = normalize(camera_position - surface.world_position);
@@ -100,11 +131,6 @@ vec3 litColor(Surface surface, float visibility) {
 void main() {
     vec4 position = positionAt(uv);
     if (position.w == 0.0) discard; // the background stays as it was cleared
-#if SSAO == SSAO_OFF
-    float visibility = 1.0;
-#else
-    float visibility = textureLod(ssao_map, uv, 0.0).r;
-#endif
-    lit_color = vec4(litColor(surfaceAt(uv, position), visibility), 1.0);
+    lit_color = vec4(litColor(surfaceAt(uv, position), visibilityAt(position.xyz)), 1.0);
 }
 // end excerpt

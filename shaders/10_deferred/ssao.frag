@@ -3,8 +3,7 @@
 #include "10_deferred/read_view.glsl"
 #include "10_deferred/noise.glsl"
 
-in vec2 uv;
-
+uniform int pixel_step;         // 2: every second pixel in either direction
 uniform vec2 half_uv_from_view; // offset from the screen's centre = view xy * this / -view z
 uniform float radius;           // world units
 uniform float bias;             // world units by which an occluder must stand out
@@ -16,10 +15,10 @@ uniform vec3 kernel[SSAO_SAMPLES]; // samples in the hemisphere about z, world u
 uniform float strength;         // factor on the occlusion
 #endif
 
-#if SSAO == SSAO_SEED
-out float visibility; // [0, 1]
+#if WITH_VIEW_Z
+out vec2 visibility_and_view_z; // for the passes that must tell surfaces apart: [0, 1], world units
 #else
-out vec2 visibility_and_view_z; // for the blur: [0, 1], world units
+out float visibility; // [0, 1]
 #endif
 
 #if SSAO == SSAO_GTAO
@@ -27,7 +26,7 @@ out vec2 visibility_and_view_z; // for the blur: [0, 1], world units
 // Jimenez et al. 2016, "Practical Realtime Strategies for Accurate Indirect Occlusion". In each of some planes through
 // the view direction the highest horizon is sought to both sides; between the two the cosine-weighted visibility has
 // a closed form (equations 7 and 10 there).
-float horizonCosine(vec3 view_position, vec3 to_eye, vec2 uv_step, float jitter, float lowest) {
+float horizonCosine(vec3 view_position, vec3 to_eye, vec2 uv, vec2 uv_step, float jitter, float lowest) {
     float highest = lowest;
     for (int i = 0; i < steps; ++i) {
         // samples lie closer together near the pixel, where the horizon changes most
@@ -43,7 +42,7 @@ float horizonCosine(vec3 view_position, vec3 to_eye, vec2 uv_step, float jitter,
     return highest;
 }
 
-float visibilityAt(vec3 view_position, vec3 view_normal, float turn) {
+float visibilityAt(vec2 uv, vec3 view_position, vec3 view_normal, float turn) {
     const float pi = 3.14159265;
     const float half_pi = 0.5 * pi;
     // looked at from a little above, a flat surface hides nothing of itself, however coarse its stored positions
@@ -60,9 +59,9 @@ float visibilityAt(vec3 view_position, vec3 view_normal, float turn) {
         vec3 in_slice = view_normal - axis * dot(view_normal, axis);
         float in_slice_length = max(length(in_slice), 1e-4);
         float normal_rad = atan(dot(in_slice, across), dot(in_slice, to_eye));
-        float ahead = acos(horizonCosine(view_position, to_eye, direction * uv_radius, jitter,
+        float ahead = acos(horizonCosine(view_position, to_eye, uv, direction * uv_radius, jitter,
                                          max(cos(normal_rad + half_pi), -1.0)));
-        float behind = -acos(horizonCosine(view_position, to_eye, -direction * uv_radius, jitter,
+        float behind = -acos(horizonCosine(view_position, to_eye, uv, -direction * uv_radius, jitter,
                                            max(cos(normal_rad - half_pi), -1.0)));
         // no lower than the surface's own plane
         ahead = min(ahead, normal_rad + half_pi);
@@ -79,7 +78,7 @@ float visibilityAt(vec3 view_position, vec3 view_normal, float turn) {
 // excerpt: ssao
 // Crytek's method (Mittring 2007) over the hemisphere about the normal: a sample of it is occluded where the surface
 // seen at its place on the screen lies nearer to the camera.
-float visibilityAt(vec3 view_position, vec3 view_normal, float turn) {
+float visibilityAt(vec2 uv, vec3 view_position, vec3 view_normal, float turn) {
     // a frame about the normal, turned by another angle in each pixel: the kernel is small, noise hides its pattern
     vec3 up = abs(dot(view_normal, view_from_world[1].xyz)) > 0.95 ? view_from_world[0].xyz : view_from_world[1].xyz;
     vec3 across = normalize(cross(up, view_normal));
@@ -104,13 +103,14 @@ float visibilityAt(vec3 view_position, vec3 view_normal, float turn) {
 #endif
 
 void main() {
+    vec2 uv = (floor(gl_FragCoord.xy) * float(pixel_step) + 0.5) / vec2(textureSize(normal_map, 0));
     vec3 view_position = viewPositionAt(uv);
     float visible = 1.0;
     if (view_position.z > background_view_z)
-        visible = visibilityAt(view_position, viewNormalAt(uv), turnOf(ivec2(gl_FragCoord.xy)));
-#if SSAO == SSAO_SEED
-    visibility = visible;
-#else
+        visible = visibilityAt(uv, view_position, viewNormalAt(uv), turnOf(ivec2(gl_FragCoord.xy)));
+#if WITH_VIEW_Z
     visibility_and_view_z = vec2(visible, view_position.z);
+#else
+    visibility = visible;
 #endif
 }

@@ -6,6 +6,7 @@
 #include "scene.hpp"
 
 #include <cmath>
+#include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace {
@@ -30,6 +31,8 @@ struct DeferredOptions {
                    "against self-shadowing: 0.0025; by slope and polygon offset; by slope and texel size");
     Choice ssao = all.choice("ssao", "seed", {"off", "seed", "blur", "gtao"},
                              "ambient occlusion: none, noisy, with depth-aware blur, horizons with blur");
+    Choice ssao_resolution = all.choice("ssao_resolution", "full", {"full", "half"},
+                                        "occlusion for each pixel, or for a quarter of them");
     Integer ssao_samples = all.integer("ssao_samples", 16, 1, 64, "occlusion samples a pixel");
     Number ssao_radius = all.number("ssao_radius", 0.6, 0.01, 10, "how far occluders are sought, units");
     Number ssao_bias = all.number("ssao_bias", 0.03, 0, 1, "how much nearer an occluder must be, units");
@@ -168,10 +171,10 @@ class Deferred final : public Rung {
         gbuffer_.resize(size);
         lit_.resize(size);
         shadow_.resize({options_.shadow_size, options_.shadow_size});
-        if (!(options_.ssao == "off")) ssao_.resize(size);
+        if (!(options_.ssao == "off")) occlusion().resize(occlusionSize(size));
         if (blurred())
             for (Framebuffer& target : noisy_)
-                target.resize(size);
+                target.resize(occlusionSize(size));
     }
 
     // excerpt: shadow
@@ -209,24 +212,29 @@ class Deferred final : public Rung {
     }
     // end excerpt
 
+    bool halved() const { return options_.ssao_resolution == "half"; }
+    glm::ivec2 occlusionSize(glm::ivec2 size) const { return halved() ? (size + 1) / 2 : size; }
+    Framebuffer& occlusion() { return halved() ? half_ssao_ : ssao_; }
     bool blurred() const { return options_.ssao == "blur" || options_.ssao == "gtao"; }
 
     // excerpt: occlusion
     void drawOcclusion(Frame& frame) {
         if (options_.ssao == "off") return;
         const int samples = options_.ssao_samples;
-        Defines defines = options_.gbuffer.defines() + options_.ssao.defines();
+        Defines defines = options_.gbuffer.defines() + options_.ssao.defines() +
+                          Defines{{"WITH_VIEW_Z", blurred() || halved() ? "1" : "0"}};
         if (!(options_.ssao == "gtao")) defines.push_back({"SSAO_SAMPLES", std::to_string(samples)});
         const Program& program = shaders_.fullScreen("10_deferred/ssao.frag", defines);
         const int slices = std::max(samples / 8, 1);
         const glm::vec2 scale(clip_from_view_[0][0], clip_from_view_[1][1]);
-        frame.pass("ssao", blurred() ? noisy_[0] : ssao_,
+        frame.pass("ssao", blurred() ? noisy_[0] : occlusion(),
                    {.program = program,
                     .inputs = usedBy(program, gbufferInputs()),
                     .uniforms = usedBy(program, {{"view_from_world", view_from_world_},
                                                  {"view_z_from_depth", viewZFromDepth()},
                                                  {"view_from_ndc", 1.0F / scale},
                                                  {"half_uv_from_view", 0.5F * scale},
+                                                 {"pixel_step", halved() ? 2 : 1},
                                                  {"radius", options_.ssao_radius},
                                                  {"slices", slices},
                                                  {"steps", std::max(samples / (2 * slices), 1)},
@@ -236,10 +244,10 @@ class Deferred final : public Rung {
         if (!blurred()) return;
         for (const int axis : {0, 1}) {
             glm::vec2 uv_step(0);
-            uv_step[axis] = 1.0F / static_cast<float>(frame.size()[axis]);
-            frame.pass(axis == 0 ? "ssao_blur_x" : "ssao_blur_y", axis == 0 ? noisy_[1] : ssao_,
+            uv_step[axis] = 1.0F / static_cast<float>(noisy_[0].size()[axis]);
+            frame.pass(axis == 0 ? "ssao_blur_x" : "ssao_blur_y", axis == 0 ? noisy_[1] : occlusion(),
                        {.program = shaders_.fullScreen("10_deferred/ssao_blur.frag",
-                                                       {{"LAST", axis == 0 ? "0" : "1"}}),
+                                                       {{"WITH_VIEW_Z", axis == 0 || halved() ? "1" : "0"}}),
                         .inputs = {{"occlusion", noisy_[axis == 0 ? 0 : 1].color()}},
                         .uniforms = {{"uv_step", uv_step}}});
         }
@@ -263,19 +271,21 @@ class Deferred final : public Rung {
     void light(Frame& frame) {
         const Program& program = shaders_.fullScreen(
             "10_deferred/lighting.frag",
-            options_.gbuffer.defines() + options_.ssao.defines() + options_.shadow_bias.defines() +
-                options_.environment_diffuse.defines() + options_.environment_specular.defines() +
+            options_.gbuffer.defines() + options_.ssao.defines() + options_.ssao_resolution.defines() +
+                options_.shadow_bias.defines() + options_.environment_diffuse.defines() +
+                options_.environment_specular.defines() +
                 Defines{{"PCF_TAPS", options_.shadow_pcf.name()},
                         {"SUN", options_.sun ? "1" : "0"},
                         {"POINTS", options_.points ? "1" : "0"},
                         {"ENVIRONMENT", options_.environment ? "1" : "0"}});
         std::vector<Input> inputs = gbufferInputs();
-        inputs.push_back({"ssao_map", ssao_.color()});
+        inputs.push_back({"ssao_map", occlusion().color()});
         inputs.push_back({"shadow_map", shadow_.depth()});
         inputs.push_back({"environment_map", environment_.map()});
         std::vector<UniformSetting> uniforms = gbufferUniforms();
         uniforms.insert(uniforms.end(),
                         {{"to_sun", to_sun_},
+                         {"view_z_from_world", glm::row(view_from_world_, 2)},
                          {"shadow_from_world",
                           glm::scale(glm::translate(glm::mat4(1), glm::vec3(0.5F)), glm::vec3(0.5F)) *
                               light_clip_from_world_},
@@ -312,7 +322,7 @@ class Deferred final : public Rung {
                                                      options_.view.defines() + options_.gbuffer.defines() +
                                                          options_.ssao.defines() + options_.encode.defines());
         std::vector<Input> inputs = gbufferInputs();
-        inputs.push_back({"ssao_map", ssao_.color()});
+        inputs.push_back({"ssao_map", occlusion().color()});
         inputs.push_back({"shadow_map", shadow_.depth()});
         std::vector<UniformSetting> uniforms = gbufferUniforms();
         uniforms.push_back({"aspect", frame.aspect()});
@@ -326,7 +336,7 @@ class Deferred final : public Rung {
         const Program& program = shaders_.program("10_deferred/filmstrip.vert", "10_deferred/filmstrip.frag",
                                                   options_.gbuffer.defines() + options_.ssao.defines());
         std::vector<Input> inputs = gbufferInputs();
-        inputs.push_back({"ssao_map", ssao_.color()});
+        inputs.push_back({"ssao_map", occlusion().color()});
         frame.pass("filmstrip", frame.presented(),
                    {.program = program,
                     .inputs = usedBy(program, inputs),
@@ -371,6 +381,7 @@ class Deferred final : public Rung {
     Framebuffer gbuffer_{{{.name = "albedo"}}, {1, 1}}; // see gbufferAttachments()
     std::string gbuffer_made_for_;
     Framebuffer ssao_{{{.name = "ssao", .format = Format::r8}}, {1, 1}};
+    Framebuffer half_ssao_{{{.name = "ssao", .format = Format::rg16f}}, {1, 1}};
     std::array<Framebuffer, 2> noisy_{
         Framebuffer({{.name = "ssao_noisy", .format = Format::rg16f, .filter = Filter::nearest}}, {1, 1}),
         Framebuffer({{.name = "ssao_half_blurred", .format = Format::rg16f, .filter = Filter::nearest}},
