@@ -53,15 +53,18 @@ vec3 sunLight(Surface surface, vec3 to_camera) {
 
 #if POINTS
 // excerpt: points
+vec3 pointLight(Surface surface, vec3 to_camera, vec3 light_position, vec3 light_color) {
+    vec3 to_light = light_position - surface.world_position;
+    float distance_to_light = max(length(to_light), 1e-4);
+    float fades = max(1.0 - distance_to_light / point_range, 0.0);
+    return light_color * (fades * fades * blinnLight(surface, to_light / distance_to_light, to_camera));
+}
+
+// Written out: software rasterisers look arrays up pixel by pixel where the index is not a constant.
 vec3 pointLights(Surface surface, vec3 to_camera) {
-    vec3 sum = vec3(0.0);
-    for (int i = 0; i < 3; ++i) {
-        vec3 to_light = point_position[i] - surface.world_position;
-        float distance_to_light = max(length(to_light), 1e-4);
-        float fades = max(1.0 - distance_to_light / point_range, 0.0);
-        sum += point_color[i] * (fades * fades * blinnLight(surface, to_light / distance_to_light, to_camera));
-    }
-    return sum;
+    return pointLight(surface, to_camera, point_position[0], point_color[0]) +
+           pointLight(surface, to_camera, point_position[1], point_color[1]) +
+           pointLight(surface, to_camera, point_position[2], point_color[2]);
 }
 // end excerpt
 #endif

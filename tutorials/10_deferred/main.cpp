@@ -238,7 +238,6 @@ class Deferred final : public Rung {
                                                  {"radius", options_.ssao_radius},
                                                  {"slices", slices},
                                                  {"steps", std::max(samples / (2 * slices), 1)},
-                                                 {"kernel", occlusionKernel()},
                                                  {"bias", options_.ssao_bias},
                                                  {"strength", options_.ssao_strength}})});
         if (!blurred()) return;
@@ -251,19 +250,6 @@ class Deferred final : public Rung {
                         .inputs = {{"occlusion", noisy_[axis == 0 ? 0 : 1].color()}},
                         .uniforms = {{"uv_step", uv_step}}});
         }
-    }
-
-    // A spiral in the hemisphere about z, evenly spread over the disk by the golden angle.
-    std::vector<glm::vec3> occlusionKernel() const {
-        std::vector<glm::vec3> kernel;
-        for (int i = 0; i < options_.ssao_samples; ++i) {
-            const float angle_rad = static_cast<float>(i) * 2.3998277F;
-            const float distance =
-                options_.ssao_radius *
-                std::sqrt((static_cast<float>(i) + 0.5F) / static_cast<float>(options_.ssao_samples));
-            kernel.push_back(distance * glm::vec3(std::cos(angle_rad), std::sin(angle_rad), 0.5F));
-        }
-        return kernel;
     }
     // end excerpt
 
