@@ -99,12 +99,13 @@ float visibilityAt(vec3 world_position) { return textureLod(ssao_map, uv, 0.0).r
 float visibilityAt(vec3 world_position) {
     float view_z = dot(view_z_from_world, vec4(world_position, 1.0));
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    ivec2 low = pixel >> 1;
-    ivec2 high = min(low + (pixel & 1), textureSize(ssao_map, 0) - 1);
+    vec2 texel = 1.0 / vec2(textureSize(ssao_map, 0));
+    vec2 low = (vec2(pixel >> 1) + 0.5) * texel;
+    vec2 to_high = vec2(pixel & 1) * texel;
     float sum = 0.0;
     float weights = 0.0;
     for (int i = 0; i < 4; ++i) {
-        vec2 other = texelFetch(ssao_map, ivec2((i & 1) == 0 ? low.x : high.x, (i & 2) == 0 ? low.y : high.y), 0).rg;
+        vec2 other = textureLod(ssao_map, low + vec2(i & 1, i >> 1) * to_high, 0.0).rg;
         float weight = sameSurface(view_z, other.g) + 1e-3; // where none is near, all count alike
         sum += weight * other.r;
         weights += weight;

@@ -10,16 +10,15 @@ uniform float shadow_depth_range;    // world units from depth 0 to 1
 // PCF_TAPS squared bilinear comparisons, a texel apart, weigh the texels of a row (1-f) 1 1 ... 1 f. Each pair of
 // them is one bilinear comparison at the right place between the two, so a quarter of the taps gives the same sum
 // (Castano 2013, "Shadow Mapping Summary").
-float filteredShadow(vec2 shadow_uv, float depth, bool wanted) {
+float filteredShadow(vec2 shadow_uv, float depth) {
     const int pairs = (PCF_TAPS + 1) / 2;
-    int rows = wanted ? pairs : 0;
     vec2 size = vec2(textureSize(shadow_map, 0));
     vec2 texel = shadow_uv * size - 0.5;
     vec2 first = floor(texel);
     vec2 f = texel - first;
     first -= float(pairs - 1) - 0.5; // centre of the first texel
     float sum = 0.0;
-    for (int y = 0; y < rows; ++y) {
+    for (int y = 0; y < pairs; ++y) {
         float near_y = y == 0 ? 1.0 - f.y : 1.0;
         float far_y = y == pairs - 1 ? f.y : 1.0;
         float weight_y = near_y + far_y;
@@ -56,6 +55,6 @@ float sunVisible(Surface surface, vec3 to_sun) {
     float n_dot_l = dot(surface.world_normal, to_sun);
     vec3 place = (shadow_from_world * vec4(surface.world_position, 1.0)).xyz;
     float depth = place.z - shadowBias(max(n_dot_l, 0.0));
-    float visible = place.z > 1.0 ? 1.0 : filteredShadow(place.xy, clamp(depth, 0.0, 1.0), n_dot_l >= 0.05);
+    float visible = place.z > 1.0 ? 1.0 : filteredShadow(place.xy, clamp(depth, 0.0, 1.0));
     return n_dot_l < 0.05 ? 0.0 : visible;
 }

@@ -367,7 +367,7 @@ class Deferred final : public Rung {
     Framebuffer gbuffer_{{{.name = "albedo"}}, {1, 1}}; // see gbufferAttachments()
     std::string gbuffer_made_for_;
     Framebuffer ssao_{{{.name = "ssao", .format = Format::r8}}, {1, 1}};
-    Framebuffer half_ssao_{{{.name = "ssao", .format = Format::rg16f}}, {1, 1}};
+    Framebuffer half_ssao_{{{.name = "ssao", .format = Format::rg16f, .filter = Filter::nearest}}, {1, 1}};
     std::array<Framebuffer, 2> noisy_{
         Framebuffer({{.name = "ssao_noisy", .format = Format::rg16f, .filter = Filter::nearest}}, {1, 1}),
         Framebuffer({{.name = "ssao_half_blurred", .format = Format::rg16f, .filter = Filter::nearest}},

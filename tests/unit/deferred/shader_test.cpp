@@ -209,7 +209,7 @@ void main() {
     for (int y = -reach; y <= reach; ++y)
         for (int x = -reach; x <= reach; ++x)
             sum += textureLod(shadow_map, vec3(uv * 1.2 - 0.1 + vec2(x, y) / 32.0, 0.4), 0.0);
-    difference = abs(sum / float(PCF_TAPS * PCF_TAPS) - filteredShadow(uv * 1.2 - 0.1, 0.4, true));
+    difference = abs(sum / float(PCF_TAPS * PCF_TAPS) - filteredShadow(uv * 1.2 - 0.1, 0.4));
 }
 )",
                                          defines),
