@@ -95,22 +95,18 @@ float visibilityAt(vec3 world_position) { return 1.0; }
 #elif SSAO_RESOLUTION == SSAO_RESOLUTION_FULL
 float visibilityAt(vec3 world_position) { return textureLod(ssao_map, uv, 0.0).r; }
 #else
-// Every second pixel has its own; those between take what the neighbours on their surface have.
+// Every second pixel has its own; those between take the mean of two neighbours, across or along a diagonal, or of one
+// where the other shows another surface.
 float visibilityAt(vec3 world_position) {
     float view_z = dot(view_z_from_world, vec4(world_position, 1.0));
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec2 texel = 1.0 / vec2(textureSize(ssao_map, 0));
     vec2 low = (vec2(pixel >> 1) + 0.5) * texel;
-    vec2 to_high = vec2(pixel & 1) * texel;
-    float sum = 0.0;
-    float weights = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        vec2 other = textureLod(ssao_map, low + vec2(i & 1, i >> 1) * to_high, 0.0).rg;
-        float weight = sameSurface(view_z, other.g) + 1e-3; // where none is near, all count alike
-        sum += weight * other.r;
-        weights += weight;
-    }
-    return sum / weights;
+    vec2 one = textureLod(ssao_map, low, 0.0).rg;
+    vec2 other = textureLod(ssao_map, low + vec2(pixel & 1) * texel, 0.0).rg;
+    float one_weight = sameSurface(view_z, one.g) + 1e-3; // where neither is near, both count alike
+    float other_weight = sameSurface(view_z, other.g) + 1e-3;
+    return (one_weight * one.r + other_weight * other.r) / (one_weight + other_weight);
 }
 #endif
 // end excerpt
