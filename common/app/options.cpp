@@ -118,7 +118,6 @@ FrameRequest parseBatchLine(const std::string& line, FrameRequest request) {
     }
     if (json.contains("frame") && json.contains("frames"))
         throw UsageError("\"frame\" and \"frames\" exclude each other");
-    if (request.out.empty() && !request.cost) throw UsageError("asks for nothing: give out, or cost");
     checkRequest(request);
     return request;
 }
@@ -136,6 +135,8 @@ std::vector<FrameRequest> readBatch(const std::string& file, const FrameRequest&
         try {
             requests.push_back(parseBatchLine(line, base));
             checkSettings(requests.back(), settings);
+            if (requests.back().out.empty() && !requests.back().cost)
+                throw UsageError("names no \"out\" and asks for no \"cost\", so nothing would come of it");
         } catch (const UsageError& usage) {
             throw UsageError(file + ":" + std::to_string(number) + ": " + usage.what());
         }
@@ -237,6 +238,11 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
             ->type_name("FILE");
     }
 
+    // A script's unset variable must not pass for an option that was not given.
+    for (CLI::Option* option :
+         app.get_options([](const CLI::Option* o) { return o->get_items_expected() > 0; }))
+        option->check([](const std::string& value) { return value.empty() ? "is empty" : ""; });
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -247,18 +253,12 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
         throw UsageError(std::string(error.what()) + "; --help lists the options");
     }
 
-    // Asked for by what was given, not by what is empty: a script's unset variable is an error, not a
-    // default.
-    const auto given = [&](const char* option) { return app.count(option) > 0; };
-    if (given("--size")) options.request.size = parseSize(size);
-    if (given("--frame") && given("--frames")) throw UsageError("--frame and --frames exclude each other");
-    if (given("--frame"))
+    if (!size.empty()) options.request.size = parseSize(size);
+    if (!frame.empty() && !frames.empty()) throw UsageError("--frame and --frames exclude each other");
+    if (!frame.empty())
         options.request.first_frame = options.request.last_frame =
             parseInteger(frame, 1, max_frame, "--frame");
-    if (given("--frames")) parseFrames(frames, options.request);
-    for (const char* option : {"--out", "--target", "--batch"})
-        if (given(option) && app.get_option(option)->as<std::string>().empty())
-            throw UsageError(std::string(option) + ": no name is given");
+    if (!frames.empty()) parseFrames(frames, options.request);
     options.counter = counterKind(counter);
 
     const bool needs_headless = !options.request.out.empty() || !frames.empty() ||

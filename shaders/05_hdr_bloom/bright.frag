@@ -24,16 +24,21 @@ float brightCurve(float luma) {
 // excerpt: karis
 #if KARIS == KARIS_TEXEL
 // Each of the four texels under this pixel has its weight before they are averaged, and the sum is divided by the
-// weights: one firefly cannot dominate, and a flat field stays as bright as it is.
+// weights: one firefly cannot dominate, and a flat field stays as bright as it is. Where the size is odd, a pixel does
+// not lie midway between its four: each counts by its bilinear share.
 vec3 brightColor() {
     ivec2 last = textureSize(hdr, 0) - 1;
-    ivec2 first = ivec2(floor(uv * vec2(last + 1) - 0.5));
+    vec2 place = uv * vec2(last + 1) - 0.5;
+    vec2 share = fract(place);
+    ivec2 first = ivec2(floor(place));
     vec3 sum = vec3(0.0);
     float weights = 0.0;
     for (int i = 0; i < 4; ++i) {
-        vec3 texel = texelFetch(hdr, clamp(first + ivec2(i & 1, i >> 1), ivec2(0), last), 0).rgb;
+        ivec2 corner = ivec2(i & 1, i >> 1);
+        vec3 texel = texelFetch(hdr, clamp(first + corner, ivec2(0), last), 0).rgb;
         float luma = luminance(texel);
-        float weight = 1.0 / (1.0 + luma);
+        vec2 shares = mix(1.0 - share, share, vec2(corner));
+        float weight = shares.x * shares.y / (1.0 + luma);
         sum += texel * (weight * brightCurve(luma));
         weights += weight;
     }

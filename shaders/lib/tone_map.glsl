@@ -45,7 +45,8 @@ vec3 toneMapPbrNeutral(vec3 x) {
 }
 
 vec3 toneMap(vec3 linear_color) {
-    vec3 x = clamp(linear_color, 0.0, tone_map_max);
+    // Not-a-number is not greater than 0, so it becomes 0; clamp() need not do that.
+    vec3 x = min(mix(vec3(0.0), linear_color, greaterThan(linear_color, vec3(0.0))), tone_map_max);
 #if TONE_MAP == TONE_MAP_CLAMP
     return min(x, 1.0);
 #elif TONE_MAP == TONE_MAP_REINHARD

@@ -28,18 +28,8 @@ struct Task {
 const std::map<std::string, std::optional<std::string>> rasteriser = {{"GALLIUM_DRIVER", "llvmpipe"},
                                                                       {"LIBGL_ALWAYS_SOFTWARE", "1"}};
 
-std::string lastLine(std::string text) {
-    while (!text.empty() && text.back() == '\n')
-        text.pop_back();
-    return text.substr(text.rfind('\n') + 1);
-}
-
 Result runRung(const Task& task, std::vector<std::string> arguments) {
-    Result result = run({task.program, std::move(arguments), rasteriser}, std::chrono::seconds(110));
-    if (result.exit_code != 0)
-        throw std::runtime_error("the rung ended with " + std::to_string(result.exit_code) + ": " +
-                                 lastLine(result.err));
-    return result;
+    return runToSuccess({task.program, std::move(arguments), rasteriser});
 }
 
 // All frames from one process, because starting one takes longer than a frame.

@@ -32,11 +32,6 @@ std::string contents(int file) {
     return text;
 }
 
-void limit(decltype(RLIMIT_AS) what, rlim_t bytes) {
-    const rlimit both{bytes, bytes};
-    setrlimit(what, &both);
-}
-
 // In the child, between fork and exec: only what is safe there.
 void become(const Command& command, int out, int err, char* const* arguments, char* const* environment) {
     if (!command.folder.empty() && chdir(command.folder.c_str()) != 0) _exit(126);
@@ -44,9 +39,10 @@ void become(const Command& command, int out, int err, char* const* arguments, ch
     dup2(nothing, STDIN_FILENO);
     dup2(out, STDOUT_FILENO);
     dup2(err, STDERR_FILENO);
-    if (command.memory_limit_mib) limit(RLIMIT_AS, rlim_t(*command.memory_limit_mib) << 20);
     if (command.file_limit_kib) {
-        limit(RLIMIT_FSIZE, rlim_t(*command.file_limit_kib) << 10);
+        const rlim_t bytes = rlim_t(*command.file_limit_kib) << 10;
+        const rlimit both{bytes, bytes};
+        setrlimit(RLIMIT_FSIZE, &both);
         std::signal(SIGXFSZ, SIG_IGN); // so that writing fails, as it does on a full disk
     }
     execve(command.program.c_str(), arguments, environment);
@@ -116,5 +112,18 @@ Result Process::wait(std::chrono::milliseconds limit) {
 }
 
 Result run(const Command& command, std::chrono::milliseconds limit) { return Process(command).wait(limit); }
+
+Result runToSuccess(const Command& command, std::chrono::milliseconds limit) {
+    Result result = run(command, limit);
+    if (result.exit_code == 0) return result;
+    std::string said = result.err;
+    while (!said.empty() && said.back() == '\n')
+        said.pop_back();
+    const std::string name = command.program.filename().string();
+    if (result.timed_out)
+        throw std::runtime_error(name + " was ended after " + std::to_string(limit.count() / 1000) + " s");
+    throw std::runtime_error(name + " ended with " + std::to_string(result.exit_code) + ": " +
+                             said.substr(said.rfind('\n') + 1));
+}
 
 } // namespace gll::test

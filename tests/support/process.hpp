@@ -26,7 +26,6 @@ struct Command {
     std::vector<std::string> arguments;
     std::map<std::string, std::optional<std::string>> environment = {}; // changes to it; nullopt unsets
     std::filesystem::path folder = {};                                  // to run in; empty: this one
-    std::optional<unsigned> memory_limit_mib = {};                      // of address space
     std::optional<unsigned> file_limit_kib = {}; // writing beyond fails, as on a full disk
 };
 
@@ -49,5 +48,8 @@ class Process {
 };
 
 Result run(const Command& command, std::chrono::milliseconds limit = std::chrono::seconds(60));
+
+// Throws std::runtime_error saying how it ended, and its last line on stderr, unless that was with 0.
+Result runToSuccess(const Command& command, std::chrono::milliseconds limit = std::chrono::seconds(110));
 
 } // namespace gll::test

@@ -1,6 +1,7 @@
 // Making temporary folders and removing them again.
 #include "support/temporary_folder.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
@@ -30,11 +31,12 @@ fs::path TemporaryFolder::write(const fs::path& name, std::string_view text) con
     return path;
 }
 
-std::size_t TemporaryFolder::count() const {
-    std::size_t entries = 0;
-    for ([[maybe_unused]] const auto& entry : fs::recursive_directory_iterator(path_))
-        ++entries;
-    return entries;
+std::vector<std::string> TemporaryFolder::listing() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(path_))
+        names.push_back(entry.path().lexically_relative(path_).string());
+    std::sort(names.begin(), names.end());
+    return names;
 }
 
 } // namespace gll::test

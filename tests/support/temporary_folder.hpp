@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace gll::test {
 
@@ -18,8 +20,8 @@ class TemporaryFolder {
 
     // Writes a file, and the folders that it lies in; returns its path.
     std::filesystem::path write(const std::filesystem::path& name, std::string_view text) const;
-    // How many files and folders lie in it, at any depth.
-    std::size_t count() const;
+    // What lies in it, at any depth, by name.
+    std::vector<std::string> listing() const;
 
   private:
     std::filesystem::path path_;

@@ -211,7 +211,7 @@ TEST_F(OptionsTest, aBatchLineMayNotAskForAFrameAndForFrames) {
 
 TEST_F(OptionsTest, aBatchLineThatAsksForNothingIsAnError) {
     const std::string file = batch("{\"frame\": 3}\n");
-    EXPECT_TRUE(errorOf({"--batch", file}).starts_with(file + ":1: asks for nothing"));
+    EXPECT_TRUE(errorOf({"--batch", file}).starts_with(file + ":1: names no"));
     EXPECT_EQ(errorOf({"--batch", file, "--out", "a.png"}), "");
     EXPECT_EQ(errorOf({"--batch", file, "--cost"}), "");
 }

@@ -1,0 +1,85 @@
+// Broken batch files: refused as a whole, with the file's name and the line, before the first frame is
+// rendered.
+#include "hostile/hostile.hpp"
+
+namespace gll::test {
+namespace {
+
+struct BatchCase {
+    const char* name;
+    std::string text; // of the file's second line
+    std::vector<std::string> parts = {};
+};
+void PrintTo(const BatchCase& one, std::ostream* stream) { *stream << one.text.substr(0, 80); }
+
+class Batch : public testing::TestWithParam<BatchCase> {};
+
+TEST_P(Batch, namesFileAndLineAndRendersNothing) {
+    const TemporaryFolder folder;
+    const auto file = folder.write("batch.jsonl", R"({"size": "8x8", "out": "first.png"})"
+                                                  "\n" +
+                                                      GetParam().text + "\n");
+    std::vector<std::string> parts = GetParam().parts;
+    parts.push_back(file.string() + ":2: ");
+    expectRefusal(run(rungCommand(folder, {"--batch", file.string()})), 2, parts);
+    EXPECT_EQ(folder.listing(), std::vector<std::string>{"batch.jsonl"});
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Lines, Batch,
+    testing::Values(
+        BatchCase{"words", "frame 60"}, BatchCase{"list", "[1, 2]"}, BatchCase{"number", "60"},
+        BatchCase{"unclosed", R"({"frame": 60)"}, BatchCase{"twoObjects", "{} {}"},
+        BatchCase{"deep", std::string(100'000, '[')},
+        BatchCase{"deepObject", R"({"set": )" + std::string(20'000, '[') + std::string(20'000, ']') + "}"},
+        BatchCase{"zeroByte", std::string("{\0}", 3)}, BatchCase{"notUnicode", "{\"out\": \"\xff\xfe.png\"}"},
+        BatchCase{"unknownKey", R"({"frme": 60})", {"frme"}}, BatchCase{"keyOfTwoLines", R"({"a\nb": 60})"},
+        BatchCase{"nothingToDo", R"({"frame": 60})", {"out"}},
+        BatchCase{"outEmpty", R"({"out": ""})", {"out"}},
+        BatchCase{"frameZero", R"({"frame": 0})", {"frame"}},
+        BatchCase{"frameFraction", R"({"frame": 1.5})", {"frame"}},
+        BatchCase{"frameHuge", R"({"frame": 1e99})", {"frame"}},
+        BatchCase{"frameNull", R"({"frame": null})", {"frame"}},
+        BatchCase{"frameList", R"({"frame": [1]})", {"frame"}},
+        BatchCase{"sizeList", R"({"size": [8, 8]})", {"size"}},
+        BatchCase{"sizeZero", R"({"size": "0x5"})", {"size"}},
+        BatchCase{"unknownPreset", R"({"preset": "best"})", {"best"}},
+        BatchCase{"setNumber", R"({"set": 3})", {"set"}},
+        BatchCase{"setUnknown", R"({"set": {"intensty": 1}})", {"intensty"}},
+        BatchCase{"setNull", R"({"set": {"intensity": null}})", {"intensity"}},
+        BatchCase{"setObject", R"({"set": {"intensity": {"a": 1}}})", {"intensity"}},
+        BatchCase{"setOutOfRange", R"({"set": {"intensity": -1}})", {"intensity"}},
+        BatchCase{"setHuge", R"({"set": {"intensity": 1e308}})", {"intensity"}},
+        BatchCase{"costWord", R"({"cost": "yes"})", {"cost"}},
+        BatchCase{"outExtension", R"({"out": "a.jpg"})", {"a.jpg"}},
+        BatchCase{"outPattern", R"({"out": "%s.png"})", {"%s.png"}}, BatchCase{"outNumber", R"({"out": 3})"},
+        BatchCase{"sequenceIntoOneFile", R"({"frames": "1..2", "out": "a.png"})", {"%d"}}),
+    [](const auto& row) { return std::string(row.param.name); });
+
+TEST(BatchFile, thatIsMissingIsNamed) {
+    checkRefusal({"", {"--batch", "{}/missing.jsonl"}, 1, {"missing.jsonl"}});
+}
+
+TEST(BatchFile, thatIsAFolderIsNamed) {
+    const TemporaryFolder folder;
+    expectRefusal(run(rungCommand(folder, {"--batch", folder.path().string()})), 1,
+                  {folder.path().string(), "folder"});
+}
+
+TEST(BatchFile, thatIsEmptyIsRefused) {
+    const TemporaryFolder folder;
+    const auto file = folder.write("batch.jsonl", "\n \n");
+    expectRefusal(run(rungCommand(folder, {"--batch", file.string()})), 2, {"batch.jsonl"});
+}
+
+TEST(BatchFile, withATargetThatIsNotThereStopsAtThatFrame) {
+    const TemporaryFolder folder;
+    const auto file = folder.write("batch.jsonl", R"({"size": "8x8", "out": "first.png"})"
+                                                  "\n"
+                                                  R"({"size": "8x8", "target": "hdd", "out": "second.png"})");
+    expectRefusal(run(rungCommand(folder, {"--batch", file.string()})), 2, {"hdd"});
+    EXPECT_EQ(folder.listing(), (std::vector<std::string>{"batch.jsonl", "first.png"}));
+}
+
+} // namespace
+} // namespace gll::test

@@ -1,0 +1,107 @@
+// Wrong options, settings, sizes, frames and targets: refused with exit code 2 before anything is rendered.
+#include "hostile/hostile.hpp"
+
+namespace gll::test {
+namespace {
+
+class CommandLine : public testing::TestWithParam<Refusal> {};
+
+TEST_P(CommandLine, isRefusedInOneLine) { checkRefusal(GetParam()); }
+
+Refusal setting(const char* name, const std::string& assignment, std::vector<std::string> parts) {
+    return {name, {"--headless", "--set", assignment}, 2, std::move(parts)};
+}
+Refusal size(const char* name, const std::string& text) {
+    return {name, {"--headless", "--size", text}, 2, {"--size"}};
+}
+Refusal frame(const char* name, const std::string& text) {
+    return {name, {"--headless", "--frame", text}, 2, {"--frame"}};
+}
+Refusal frames(const char* name, const std::string& text) {
+    return {name, {"--frames", text, "--out", "f%d.png"}, 2, {"--frames"}};
+}
+Refusal out(const char* name, const std::string& text) { return {name, {"--out", text}, 2, {"--out"}}; }
+
+INSTANTIATE_TEST_SUITE_P(
+    Options, CommandLine,
+    testing::Values(
+        Refusal{"unknownOption", {"--headles"}, 2, {"--headles", "--help"}},
+        Refusal{"unknownShortOption", {"-x"}, 2, {"-x"}}, Refusal{"strayWord", {"bloom"}, 2, {"bloom"}},
+        Refusal{"severalUnknownOptions", {"--a", "--b\nc"}, 2, {"--a"}},
+        Refusal{"optionWithoutItsValue", {"--size"}, 2, {"--size"}},
+        Refusal{"emptyTarget", {"--headless", "--target", ""}, 2, {"--target"}},
+        Refusal{"emptyBatch", {"--batch="}, 2, {"--batch"}},
+        Refusal{"unknownContext", {"--context", "vulkan"}, 2, {"--context", "vulkan"}},
+        Refusal{"windowAndHeadless", {"--headless", "--context", "window"}, 2, {"--headless"}},
+        Refusal{"windowAndOut", {"--context", "window", "--out", "a.png"}, 2, {"--context window"}},
+        Refusal{"unknownPreset", {"--headless", "--preset", "best"}, 2, {"best", "seed"}},
+        Refusal{"unknownTarget", {"--target", "hdd", "--size", "8x8"}, 2, {"hdd", "hdr", "bloom0"}},
+        Refusal{"unknownCounter", {"--cost", "--counter", "guess"}, 2, {"--counter"}},
+        Refusal{"frameAndFrames", {"--frame", "1", "--frames", "1..2", "--out", "%d.png"}, 2, {"--frame"}}),
+    RefusalName());
+
+INSTANTIATE_TEST_SUITE_P(
+    Settings, CommandLine,
+    testing::Values(setting("unknown", "intensty=1", {"intensty", "--settings"}),
+                    setting("withoutEquals", "intensity", {"KEY=VALUE"}),
+                    setting("withoutValue", "intensity=", {"intensity"}),
+                    setting("withoutName", "=1", {"unknown setting"}),
+                    setting("belowItsRange", "intensity=-0.1", {"intensity", "0 to 100"}),
+                    setting("aboveItsRange", "intensity=100.1", {"intensity", "0 to 100"}),
+                    setting("notANumber", "intensity=nan", {"intensity", "nan"}),
+                    setting("infinite", "intensity=inf", {"intensity", "inf"}),
+                    setting("beyondDouble", "intensity=1e999", {"intensity"}),
+                    setting("words", "intensity=much", {"intensity", "much"}),
+                    setting("numberWithATail", "intensity=1.0f", {"intensity", "1.0f"}),
+                    setting("fractionForInteger", "levels=2.5", {"levels", "whole"}),
+                    setting("tooManyLevels", "levels=9", {"levels", "1 to 8"}),
+                    setting("noLevels", "levels=0", {"levels", "1 to 8"}),
+                    setting("tooManyInstances", "instances=1000001", {"instances"}),
+                    setting("neitherOnNorOff", "bloom=maybe", {"bloom", "maybe"}),
+                    setting("unknownChoice", "tone_map=aces", {"tone_map", "aces_hill"}),
+                    setting("twoLines", "tone_map=a\nb", {"tone_map"})),
+    RefusalName());
+
+INSTANTIATE_TEST_SUITE_P(Sizes, CommandLine,
+                         testing::Values(size("zeroWidth", "0x5"), size("zeroHeight", "5x0"),
+                                         size("huge", "99999x99999"), size("tooManyPixels", "16384x16384"),
+                                         size("tooWide", "16385x1"), size("negative", "-1x5"),
+                                         size("oneNumber", "640"), size("threeNumbers", "6x4x8"),
+                                         size("fraction", "6.5x4"), size("empty", "x"),
+                                         size("beyondInteger", "99999999999999999999x1"),
+                                         size("capital", "640X480"), size("nothing", ""),
+                                         size("spaces", "640 x 480")),
+                         RefusalName());
+
+INSTANTIATE_TEST_SUITE_P(
+    Frames, CommandLine,
+    testing::Values(frame("zero", "0"), frame("negative", "-1"), frame("words", "first"),
+                    frame("notANumber", "nan"), frame("fraction", "1.5"),
+                    frame("beyondInteger", "99999999999"), frames("backwards", "5..1"), frames("one", "5"),
+                    frames("fromZero", "0..5"), frames("openEnd", "5.."), frames("noStep", "1..5:0"),
+                    frames("emptyStep", "1..5:"), frames("threeDots", "1...5"),
+                    Refusal{"severalIntoOneFile", {"--frames", "1..2", "--out", "a.png"}, 2, {"%d"}}),
+    RefusalName());
+
+INSTANTIATE_TEST_SUITE_P(Names, CommandLine,
+                         testing::Values(out("noExtension", "frame"), out("unknownExtension", "frame.jpg"),
+                                         out("dot", "."), out("empty", ""), out("string", "%s.png"),
+                                         out("longNumber", "%123d.png"), out("twoNumbers", "%d_%d.png"),
+                                         out("loneMark", "100%.png"), out("stored", "%n.png")),
+                         RefusalName());
+
+TEST(CommandLineWindow, withoutADisplayNamesHeadless) {
+    for (const char* display : {"", ":4711"}) {
+        const TemporaryFolder folder;
+        for (const bool explicitly : {true, false}) {
+            Command command = rungCommand(folder, {});
+            if (explicitly) command.arguments = {"--context", "window"};
+            if (*display != '\0') command.environment["DISPLAY"] = display;
+            expectRefusal(run(command), 1, {"--headless"});
+        }
+        EXPECT_EQ(folder.listing(), std::vector<std::string>());
+    }
+}
+
+} // namespace
+} // namespace gll::test

@@ -1,0 +1,72 @@
+// Files that cannot be written: said in one line, with nothing half-written and nothing destroyed.
+#include "hostile/hostile.hpp"
+
+#include <fstream>
+#include <iterator>
+#include <unistd.h>
+
+namespace gll::test {
+namespace {
+
+std::string contents(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+TEST(Output, intoAMissingFolderIsRefused) {
+    checkRefusal({"", {"--size", "8x8", "--out", "{}/no/frame.png"}, 1, {"no/frame.png", "folder"}});
+}
+
+TEST(Output, withATooLongNameIsRefused) {
+    checkRefusal({"", {"--size", "8x8", "--out", "{}/" + std::string(300, 'a') + ".png"}, 1, {"aaa.png"}});
+}
+
+TEST(Output, ontoAFolderIsRefused) {
+    for (const char* name : {"frame.png", "frame.exr", "frame.hdr"}) {
+        const TemporaryFolder folder;
+        std::filesystem::create_directory(folder / name);
+        expectRefusal(run(rungCommand(folder, {"--size", "8x8", "--out", name})), 1, {name, "folder"});
+        EXPECT_EQ(folder.listing(), std::vector<std::string>{name});
+    }
+}
+
+TEST(Output, belowAFileIsRefused) {
+    const TemporaryFolder folder;
+    folder.write("file", "text");
+    expectRefusal(run(rungCommand(folder, {"--size", "8x8", "--out", "file/frame.png"})), 1, {"file"});
+    EXPECT_EQ(contents(folder / "file"), "text");
+}
+
+TEST(Output, intoAReadOnlyFolderIsRefused) {
+    if (geteuid() == 0) GTEST_SKIP() << "nothing is read-only to root";
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "fixed");
+    std::filesystem::permissions(folder / "fixed",
+                                 std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+    expectRefusal(run(rungCommand(folder, {"--size", "8x8", "--out", "fixed/frame.png"})), 1,
+                  {"fixed/frame.png"});
+    EXPECT_EQ(folder.listing(), std::vector<std::string>{"fixed"});
+}
+
+TEST(Output, ontoAFullDiskKeepsTheOldFileAndLeavesNoPart) {
+    for (const char* name : {"frame.png", "frame.exr", "frame.hdr"}) {
+        const TemporaryFolder folder;
+        folder.write(name, "what was there before");
+        Command command = rungCommand(folder, {"--size", "128x128", "--out", name});
+        command.file_limit_kib = 2;
+        expectRefusal(run(command), 1, {name});
+        EXPECT_EQ(folder.listing(), std::vector<std::string>{name});
+        EXPECT_EQ(contents(folder / name), "what was there before");
+    }
+}
+
+TEST(Output, ofAnUnknownTargetKeepsTheOldFile) {
+    const TemporaryFolder folder;
+    folder.write("frame.png", "what was there before");
+    expectRefusal(run(rungCommand(folder, {"--size", "8x8", "--target", "hdd", "--out", "frame.png"})), 2,
+                  {"hdd"});
+    EXPECT_EQ(contents(folder / "frame.png"), "what was there before");
+}
+
+} // namespace
+} // namespace gll::test

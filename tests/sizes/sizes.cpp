@@ -1,0 +1,86 @@
+// Every target at sizes that are tiny, odd, large or a single row: rendered without an error, and finite
+// everywhere. Usage: sizes RUNG
+#include "io/image.hpp"
+#include "support/process.hpp"
+#include "support/temporary_folder.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace {
+using namespace gll;
+using namespace gll::test;
+
+struct Frame {
+    std::string size;
+    std::string target; // empty: what a display shows
+    std::filesystem::path file;
+};
+
+constexpr const char* sizes[] = {"1x1", "2x3", "641x479", "1920x1080", "16384x1", "1x16384"};
+
+// The first value that is infinite or not a number, as words; empty: there is none.
+std::string firstNotFinite(const Image& image) {
+    const auto* floats = std::get_if<std::vector<float>>(&image.pixels);
+    if (floats == nullptr) return "";
+    for (std::size_t i = 0; i < floats->size(); ++i)
+        if (!std::isfinite((*floats)[i])) {
+            const std::size_t pixel = i / static_cast<std::size_t>(image.channels);
+            const auto width = static_cast<std::size_t>(image.width);
+            return std::to_string((*floats)[i]) + " at (" + std::to_string(pixel % width) + "," +
+                   std::to_string(pixel / width) + ")";
+        }
+    return "";
+}
+
+// A target may be smaller than the frame, the frame may not.
+std::string whatIsWrong(const Frame& frame) {
+    const Image image = loadImage(frame.file);
+    const std::string size = std::to_string(image.width) + "x" + std::to_string(image.height);
+    if (frame.target.empty() && size != frame.size) return "it is " + size;
+    return firstNotFinite(image);
+}
+
+int check(const std::filesystem::path& rung) {
+    const TemporaryFolder folder;
+    const auto listed = nlohmann::json::parse(runToSuccess({rung, {"--settings", "--json"}}).out);
+    std::vector<std::string> targets = listed.at("targets");
+    if (targets.empty()) throw std::runtime_error("the rung lists no targets");
+    targets.emplace_back();
+    std::vector<Frame> frames;
+    std::string lines;
+    for (const char* size : sizes)
+        for (const std::string& target : targets) {
+            const std::string name = std::to_string(frames.size()) + (target.empty() ? ".png" : ".exr");
+            frames.push_back({size, target, folder / name});
+            nlohmann::json line{{"frame", 60}, {"size", size}, {"out", frames.back().file.string()}};
+            if (!target.empty()) line["target"] = target;
+            lines += line.dump() + "\n";
+        }
+    runToSuccess({rung, {"--headless", "--batch", folder.write("batch.jsonl", lines).string()}});
+    int failures = 0;
+    for (const Frame& frame : frames) {
+        const std::string wrong = whatIsWrong(frame);
+        if (wrong.empty()) continue;
+        std::printf("%s %s: %s\n", frame.size.c_str(), frame.target.c_str(), wrong.c_str());
+        ++failures;
+    }
+    std::printf("%zu frames and targets, %d of them wrong\n", frames.size(), failures);
+    return failures == 0 ? 0 : 1;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        std::fprintf(stderr, "usage: sizes RUNG\n");
+        return 2;
+    }
+    try {
+        return check(argv[1]);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "sizes: error: %s\n", error.what());
+        return 1;
+    }
+}
