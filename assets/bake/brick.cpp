@@ -246,7 +246,7 @@ void bakeBrick(const std::filesystem::path& folder) {
                                     "map_Ka brick_ao.png\n"
                                     "map_Pr brick_roughness.png\n"
                                     "norm brick_normal.png\n");
-    writeJpeg(folder / "brick_albedo.jpg", albedo, 90);
+    writeJpeg(folder / "brick_albedo.jpg", albedo, 94);
     writePng(folder / "brick_normal.png", normal);
     writePng(folder / "brick_ao.png", occlusion);
     writePng(folder / "brick_roughness.png", roughness);

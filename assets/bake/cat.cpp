@@ -405,7 +405,7 @@ void bakeCat(const std::filesystem::path& folder) {
               "map_Pr -imfchan g cat_arm.png\n"
               "map_Pm -imfchan b cat_arm.png\n"
               "norm cat_normal.png\n");
-    writeJpeg(folder / "cat_albedo.jpg", albedo, 92);
+    writeJpeg(folder / "cat_albedo.jpg", albedo, 95);
     writePng(folder / "cat_normal.png", normal);
     writePng(folder / "cat_arm.png", arm);
 }
