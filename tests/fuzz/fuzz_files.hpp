@@ -1,5 +1,6 @@
 // What the fuzz targets share: a folder in memory-backed storage where each input becomes a file.
-// The readers take paths, so an input has to be one; /dev/shm costs no disk.
+// The readers take paths, so an input has to be one; /dev/shm costs no disk. libFuzzer leaves without running
+// destructors, so the folders (gll_fuzz_*) stay behind until someone removes them.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +20,6 @@ inline const std::filesystem::path& folder() {
         std::string name =
             std::filesystem::is_directory("/dev/shm") ? "/dev/shm/gll_fuzz_XXXXXX" : "gll_fuzz_XXXXXX";
         if (::mkdtemp(name.data()) == nullptr) std::abort();
-        // Left behind on a crash, which is when one may want to look at it.
-        std::atexit([] {
-            std::error_code ignored;
-            std::filesystem::remove_all(folder(), ignored);
-        });
         return std::filesystem::path(name);
     }();
     return made;

@@ -5,8 +5,11 @@
 #include "png_maker.hpp"
 #include "test_files.hpp"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <limits>
 
@@ -225,6 +228,22 @@ TEST(Image, ASaveThatFailsLeavesTheOldFileAndNothingElse) {
     expectError(folder.path / "no/a.png", {"folder exists"},
                 [&] { saveImage(folder.path / "no/a.png", byteImage(2, 2, 3)); });
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path), {}), 2);
+}
+
+TEST(Image, ADiskThatFillsUpCostsNeitherTheOldFileNorSpace) {
+    const TestFolder folder;
+    const auto path = folder.write("a.png", "old");
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    const rlimit hundred_bytes{.rlim_cur = 100, .rlim_max = before.rlim_max};
+    const auto on_limit =
+        std::signal(SIGXFSZ, SIG_IGN); // so that writing fails instead of ending the process
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &hundred_bytes), 0);
+    expectError(path, {"cannot be written whole"}, [&] { saveImage(path, byteImage(64, 64, 3)); });
+    ::setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, on_limit);
+    EXPECT_EQ(bytesOf(path), "old");
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path), {}), 1);
 }
 
 TEST(Image, SavingRefusesPixelsThatTheFormatCannotHold) {

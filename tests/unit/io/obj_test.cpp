@@ -81,10 +81,12 @@ TEST(Obj, AQuadIsCutAlongItsShorterDiagonal) {
 
 TEST(Obj, ConcavePolygonsKeepTheirAreaWhereverTheyLieAndHoweverSmall) {
     const TestFolder folder;
-    // An L of area 3 with seven corners, one of them on a straight edge; an arrow head of area 1 with four.
+    // An L of area 3 with seven corners, one of them on a straight edge; an arrow head of area 1; and two
+    // long arms of area 44.5, whose shortest cut would run past the notch at (0.5, 0.5).
     const std::vector<std::pair<std::vector<glm::vec2>, float>> shapes = {
         {{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}, {0, 1}}, 3.0f},
-        {{{0, 0}, {1, 2}, {0, 1}, {-1, 2}}, 1.0f}};
+        {{{0, 0}, {1, 2}, {0, 1}, {-1, 2}}, 1.0f},
+        {{{0, 0}, {2, 0}, {30, 0}, {30, 1}, {0.5f, 0.5f}, {1, 30}, {0, 30}, {0, 2}}, 44.5f}};
     for (const auto& [corners, area] : shapes) {
         for (const glm::vec2 offset : {glm::vec2(0, 0), glm::vec2(10, -7), glm::vec2(-3, 5)}) {
             for (const float scale : {1.0f, 1e-4f}) {
@@ -125,13 +127,15 @@ TEST(Obj, APolygonOf255CornersIsRead) {
 
 TEST(Obj, MissingNormalsAreSmoothAndDoNotDependOnTheDiagonals) {
     const TestFolder folder;
-    // The corner of a cube: three squares, so the mean normal is (1,1,1)/sqrt(3) whichever way they are cut.
-    for (const char* faces : {"f 1 2 3 4\nf 1 4 5 6\nf 1 6 7 2\n", "f 2 3 4 1\nf 4 5 6 1\nf 6 7 2 1\n"}) {
+    // The corner of a box with sides 3, 2, 1: three right angles, so the mean normal is (1,1,1)/sqrt(3),
+    // however large the faces and whichever way they are cut.
+    for (const char* faces : {"f 1 2 3 4\nf 1 4 5 6\nf 1 6 7 2\n", "f 2 3 4 1\nf 4 5 6 1\nf 6 7 2 1\n",
+                              "f 1 2 3\nf 1 3 4\nf 1 4 6\nf 4 5 6\nf 1 6 7 2\n"}) {
         const MeshData mesh = loadMesh(folder.write(
-            "a.obj", std::string("v 1 1 1\nv 0 1 1\nv 0 0 1\nv 1 0 1\nv 1 0 0\nv 1 1 0\nv 0 1 0\n") + faces));
+            "a.obj", std::string("v 3 2 1\nv 0 2 1\nv 0 0 1\nv 3 0 1\nv 3 0 0\nv 3 2 0\nv 0 2 0\n") + faces));
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
             EXPECT_NEAR(glm::length(mesh.normals[i]), 1.0f, 1e-6f);
-            if (mesh.positions[i] == glm::vec3(1.0f)) {
+            if (mesh.positions[i] == glm::vec3(3, 2, 1)) {
                 EXPECT_NEAR(glm::distance(mesh.normals[i], glm::vec3(std::sqrt(1.0f / 3.0f))), 0.0f, 1e-6f);
             }
         }
