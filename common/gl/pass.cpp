@@ -112,6 +112,20 @@ class Scope {
 
 } // namespace
 
+std::vector<Input> usedBy(const Program& program, const std::vector<Input>& inputs) {
+    std::vector<Input> used;
+    for (const Input& input : inputs)
+        if (program.uniforms().contains(input.sampler)) used.push_back(input);
+    return used;
+}
+
+std::vector<UniformSetting> usedBy(const Program& program, const std::vector<UniformSetting>& uniforms) {
+    std::vector<UniformSetting> used;
+    for (const UniformSetting& uniform : uniforms)
+        if (program.uniforms().contains(uniform.name)) used.push_back(uniform);
+    return used;
+}
+
 void drawPass(const std::string& name, const Framebuffer& target, const Pass& pass,
               const Mesh& full_screen_triangle) {
     const Scope scope(name);

@@ -52,6 +52,11 @@ struct Pass {
     std::optional<float> clear_depth = {};
 };
 
+// Those of the inputs or uniforms that the program uses: for a pass whose settings choose among variants of a
+// shader, some of which need less.
+std::vector<Input> usedBy(const Program& program, const std::vector<Input>& inputs);
+std::vector<UniformSetting> usedBy(const Program& program, const std::vector<UniformSetting>& uniforms);
+
 // Draws the pass into the target. full_screen_triangle serves a pass without a mesh. Throws
 // std::invalid_argument where a uniform or sampler of the program is not given, is given twice with another
 // type, or is unknown.

@@ -21,6 +21,21 @@ GLint wrapMode(Wrap wrap) {
     return GL_CLAMP_TO_EDGE;
 }
 
+// OpenGL's name for pixels of as many channels as count values make of a size.
+GLenum layoutOf(std::size_t count, glm::ivec2 size) {
+    constexpr GLenum layouts[] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
+    const auto texels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+    const std::size_t channels = texels == 0 ? 0 : count / texels;
+    if (channels < 1 || channels > 4 || channels * texels != count)
+        throw std::invalid_argument("texture: " + std::to_string(count) + " values do not fill " +
+                                    std::to_string(texels) + " texels of 1 to 4 channels");
+    return layouts[channels - 1];
+}
+
+glm::ivec2 levelSize(glm::ivec2 size, int level) {
+    return {std::max(size.x >> level, 1), std::max(size.y >> level, 1)};
+}
+
 } // namespace
 
 int levelCount(glm::ivec2 size) {
@@ -43,14 +58,7 @@ Texture::Texture(const TextureDescription& description, std::span<const float> p
 }
 
 void Texture::upload(std::size_t count, GLenum type, const void* pixels) {
-    constexpr GLenum layouts[] = {GL_RED, GL_RG, GL_RGB, GL_RGBA};
-    const auto texels =
-        static_cast<std::size_t>(description_.size.x) * static_cast<std::size_t>(description_.size.y);
-    const std::size_t channels = texels == 0 ? 0 : count / texels;
-    if (channels < 1 || channels > 4 || channels * texels != count)
-        throw std::invalid_argument("texture: " + std::to_string(count) + " values do not fill " +
-                                    std::to_string(texels) + " texels of 1 to 4 channels");
-    allocate(layouts[channels - 1], type, pixels);
+    allocate(layoutOf(count, description_.size), type, pixels);
     if (description_.levels > 1) generateMipmaps();
 }
 
@@ -68,9 +76,11 @@ void Texture::allocate(GLenum layout, GLenum type, const void* pixels) {
     handle_ = Handle<destroy>(id);
     glBindTexture(GL_TEXTURE_2D, id);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    for (int level = 0; level < description_.levels; ++level)
-        glTexImage2D(GL_TEXTURE_2D, level, static_cast<GLint>(info.internal), std::max(size.x >> level, 1),
-                     std::max(size.y >> level, 1), 0, layout, type, level == 0 ? pixels : nullptr);
+    for (int level = 0; level < description_.levels; ++level) {
+        const glm::ivec2 extent = levelSize(size, level);
+        glTexImage2D(GL_TEXTURE_2D, level, static_cast<GLint>(info.internal), extent.x, extent.y, 0, layout,
+                     type, level == 0 ? pixels : nullptr);
+    }
 
     const bool nearest = description_.filter == Filter::nearest;
     const bool mipmapped = description_.filter == Filter::trilinear;
@@ -96,6 +106,17 @@ void Texture::allocate(GLenum layout, GLenum type, const void* pixels) {
 void Texture::generateMipmaps() const {
     glBindTexture(GL_TEXTURE_2D, id());
     glGenerateMipmap(GL_TEXTURE_2D);
+    glBindTexture(GL_TEXTURE_2D, 0);
+}
+
+void Texture::setLevel(int level, std::span<const float> pixels) const {
+    if (level < 0 || level >= description_.levels)
+        throw std::invalid_argument("texture: no level " + std::to_string(level));
+    const glm::ivec2 extent = levelSize(description_.size, level);
+    const GLenum layout = layoutOf(pixels.size(), extent);
+    glBindTexture(GL_TEXTURE_2D, id());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexSubImage2D(GL_TEXTURE_2D, level, 0, 0, extent.x, extent.y, layout, GL_FLOAT, pixels.data());
     glBindTexture(GL_TEXTURE_2D, 0);
 }
 

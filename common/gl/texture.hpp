@@ -46,6 +46,11 @@ class Texture {
     // than powers of two, reduce by a pass instead.
     void generateMipmaps() const;
 
+    // Replaces one mip level, bottom row first, in as many channels as the count says (1 to 4): for levels
+    // that are more than the average of the one before. Throws std::invalid_argument where the count does not
+    // divide.
+    void setLevel(int level, std::span<const float> pixels) const;
+
   private:
     static void destroy(GLuint id) { glDeleteTextures(1, &id); }
     void allocate(GLenum layout, GLenum type, const void* pixels);

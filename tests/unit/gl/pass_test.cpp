@@ -53,6 +53,13 @@ void main() { color = texture(source, uv); }
         "no uniform named flat_colour");
 }
 
+TEST_F(PassTest, usedByLeavesOutWhatAVariantDoesNotUse) {
+    const Framebuffer target({{"out"}}, {2, 2});
+    EXPECT_TRUE(usedBy(flat, std::vector<Input>{{"source", target.color()}}).empty());
+    draw(target, {.program = flat, .uniforms = usedBy(flat, {{"flat_color", red}, {"flat_colour", green}})});
+    EXPECT_EQ(pixelOf(target.color(), 0, 0), red);
+}
+
 TEST_F(PassTest, aValueGivenInAnEarlierPassDoesNotCountAsGivenInThis) {
     const Framebuffer target({{"out"}}, {2, 2});
     draw(target, {.program = flat, .uniforms = paint_red});

@@ -1,0 +1,136 @@
+#version 330 core
+// Lights every pixel once, from what the G-buffer, the shadow map and the occlusion say of it.
+#include "10_deferred/read_gbuffer.glsl"
+#if SUN
+#include "10_deferred/shadow.glsl"
+#endif
+#if ENVIRONMENT
+#include "10_deferred/environment.glsl"
+#endif
+#if SSAO != SSAO_OFF && SSAO_RESOLUTION == SSAO_RESOLUTION_HALF
+#include "10_deferred/same_surface.glsl"
+#endif
+
+in vec2 uv;
+
+#if STORES_POSITION
+uniform vec3 camera_position; // world
+#endif
+#if SSAO != SSAO_OFF
+uniform sampler2D ssao_map; // r: [0, 1]; at half resolution also g: view z
+#if SSAO_RESOLUTION == SSAO_RESOLUTION_HALF
+uniform vec4 view_z_from_world;
+#endif
+#endif
+#if SUN
+uniform vec3 to_sun;          // world, unit length
+#endif
+#if POINTS
+uniform vec3 point_position[3]; // world
+uniform vec3 point_color[3];    // linear
+#endif
+
+out vec4 lit_color; // linear, [0, infinity); alpha 0: background
+
+const vec3 sun_color = vec3(1.25, 1.10, 0.80);
+const float point_range = 5.5;    // world units from which on a point light is dark
+const float occluded_light = 0.55; // what is left of direct light where nothing of the ambient comes through
+
+// excerpt: blinn
+// Lambert plus Blinn's highlight (Blinn 1977), for light of strength 1.
+float blinnLight(Surface surface, vec3 to_light, vec3 to_camera) {
+    vec3 halfway = normalize(to_light + to_camera);
+    float highlight = pow(max(dot(surface.world_normal, halfway), 0.0), surface.shininess);
+    return max(dot(surface.world_normal, to_light), 0.0) + highlight * surface.specular;
+}
+// end excerpt
+
+#if SUN
+vec3 sunLight(Surface surface, vec3 to_camera) {
+    return sun_color * (blinnLight(surface, to_sun, to_camera) * sunVisible(surface, to_sun));
+}
+#endif
+
+#if POINTS
+// excerpt: points
+vec3 pointLight(Surface surface, vec3 to_camera, vec3 light_position, vec3 light_color) {
+    vec3 to_light = light_position - surface.world_position;
+    float distance_to_light = max(length(to_light), 1e-4);
+    float fades = max(1.0 - distance_to_light / point_range, 0.0);
+    return light_color * (fades * fades * blinnLight(surface, to_light / distance_to_light, to_camera));
+}
+
+// Written out: software rasterisers look arrays up pixel by pixel where the index is not a constant.
+vec3 pointLights(Surface surface, vec3 to_camera) {
+    return pointLight(surface, to_camera, point_position[0], point_color[0]) +
+           pointLight(surface, to_camera, point_position[1], point_color[1]) +
+           pointLight(surface, to_camera, point_position[2], point_color[2]);
+}
+// end excerpt
+#endif
+
+#if ENVIRONMENT
+// excerpt: ambient
+// A sky above, ground below; two fifths of it comes from the environment map. The map is also mirrored, more at
+// grazing angles, which the fourth power stands for.
+vec3 ambientLight(vec3 world_normal) {
+    const vec3 ground_color = vec3(0.08, 0.06, 0.05);
+    const vec3 sky_color = vec3(0.22, 0.24, 0.36);
+    vec3 hemisphere = mix(ground_color, sky_color, world_normal.y * 0.5 + 0.5);
+    return mix(hemisphere, environmentDiffuse(world_normal), 0.4);
+}
+
+vec3 reflectedLight(Surface surface, vec3 to_camera) {
+    float grazing = 1.0 - max(dot(surface.world_normal, to_camera), 0.0);
+    float fresnel = 0.10 + 0.7 * (grazing * grazing) * (grazing * grazing);
+    vec3 mirrored = reflect(-to_camera, surface.world_normal);
+    return environmentSpecular(mirrored, surface.shininess) * (surface.specular * fresnel);
+}
+// end excerpt
+#endif
+
+// excerpt: upsample
+#if SSAO == SSAO_OFF
+float visibilityAt(vec3 world_position) { return 1.0; }
+#elif SSAO_RESOLUTION == SSAO_RESOLUTION_FULL
+float visibilityAt(vec3 world_position) { return textureLod(ssao_map, uv, 0.0).r; }
+#else
+// Every second pixel has its own; those between take the mean of two neighbours, across or along a diagonal, or of one
+// where the other shows another surface.
+float visibilityAt(vec3 world_position) {
+    float view_z = dot(view_z_from_world, vec4(world_position, 1.0));
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec2 texel = 1.0 / vec2(textureSize(ssao_map, 0));
+    vec2 low = (vec2(pixel >> 1) + 0.5) * texel;
+    vec2 one = textureLod(ssao_map, low, 0.0).rg;
+    vec2 other = textureLod(ssao_map, low + vec2(pixel & 1) * texel, 0.0).rg;
+    float one_weight = sameSurface(view_z, one.g) + 1e-3; // where neither is near, both count alike
+    float other_weight = sameSurface(view_z, other.g) + 1e-3;
+    return (one_weight * one.r + other_weight * other.r) / (one_weight + other_weight);
+}
+#endif
+// end excerpt
+
+// excerpt: lighting
+vec3 litColor(Surface surface, float visibility) {
+    vec3 to_camera = normalize(camera_position - surface.world_position);
+    vec3 light = vec3(0.0);
+#if SUN
+    light += sunLight(surface, to_camera);
+#endif
+#if POINTS
+    light += pointLights(surface, to_camera);
+#endif
+    light *= mix(occluded_light, 1.0, visibility);
+#if ENVIRONMENT
+    light += (ambientLight(surface.world_normal) + reflectedLight(surface, to_camera)) * visibility;
+#endif
+    return surface.albedo * light;
+}
+
+void main() {
+    vec4 position = positionAt(uv);
+    if (position.w == 0.0) discard; // the background stays as it was cleared
+    lit_color = vec4(litColor(surfaceAt(uv, position), visibilityAt(position.xyz)), 1.0);
+}
+// end excerpt

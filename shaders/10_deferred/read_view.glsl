@@ -1,0 +1,48 @@
+// The G-buffer in view space, for occlusion: right-handed, looking down -z.
+#include "10_deferred/gbuffer.glsl"
+
+uniform mat4 view_from_world;
+uniform sampler2D normal_map;
+#if STORES_POSITION
+uniform sampler2D position_map;
+#else
+uniform sampler2D depth_map;
+uniform vec2 view_z_from_depth; // view z = x / (depth + y)
+uniform vec2 view_from_ndc;     // view xy = ndc * this * -view z
+#endif
+
+const float background_view_z = -1.0e3; // beyond any far plane: what is as far is background
+
+#if STORES_POSITION
+float viewZAt(vec2 uv) {
+    vec4 stored = textureLod(position_map, uv, 0.0);
+    float z = view_from_world[0].z * stored.x + view_from_world[1].z * stored.y + view_from_world[2].z * stored.z +
+              view_from_world[3].z;
+    return stored.w > 0.0 ? z : 2.0 * background_view_z;
+}
+
+vec3 viewPositionAt(vec2 uv) {
+    vec4 stored = textureLod(position_map, uv, 0.0);
+    vec3 view_position = (view_from_world * vec4(stored.xyz, 1.0)).xyz;
+    return stored.w > 0.0 ? view_position : vec3(0.0, 0.0, 2.0 * background_view_z);
+}
+#else
+float viewZAt(vec2 uv) {
+    float depth = textureLod(depth_map, uv, 0.0).r;
+    return depth < 1.0 ? view_z_from_depth.x / (depth + view_z_from_depth.y) : 2.0 * background_view_z;
+}
+
+vec3 viewPositionAt(vec2 uv) {
+    float z = viewZAt(uv);
+    return vec3((uv * 2.0 - 1.0) * view_from_ndc * -z, z);
+}
+#endif
+
+vec3 viewNormalAt(vec2 uv) {
+#if STORES_OCTAHEDRAL
+    vec3 world_normal = directionFromOctahedral(textureLod(normal_map, uv, 0.0).rg);
+#else
+    vec3 world_normal = normalize(textureLod(normal_map, uv, 0.0).rgb);
+#endif
+    return mat3(view_from_world) * world_normal;
+}

@@ -1,0 +1,140 @@
+// Reading and packing a material's images.
+#include "material.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <glm/common.hpp>
+#include <vector>
+
+namespace gll {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+std::uint8_t byteOf(float value) {
+    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0F, 1.0F) * 255.0F));
+}
+
+// Images decoded once, however many channels of them are asked for.
+class ImageCache {
+  public:
+    // 8-bit pixels of the image; null where the source is empty.
+    const Image* get(const ImageSource& source) {
+        if (source.empty()) return nullptr;
+        for (const auto& [known, image] : images_)
+            if (known == source) return &image;
+        Image image = loadImage(source);
+        if (const auto* floats = std::get_if<std::vector<float>>(&image.pixels)) {
+            Bytes bytes(floats->size());
+            std::transform(floats->begin(), floats->end(), bytes.begin(), byteOf);
+            image.pixels = std::move(bytes);
+        }
+        return &images_.emplace_back(source, std::move(image)).second;
+    }
+
+  private:
+    std::deque<std::pair<ImageSource, Image>> images_;
+};
+
+glm::ivec2 sizeOf(const Image* image) {
+    return image != nullptr ? glm::ivec2(image->width, image->height) : glm::ivec2(1);
+}
+
+// Where a texel of the larger size falls between two of the smaller one, along one axis; images repeat.
+struct Place {
+    int first, second;
+    float fraction;
+};
+Place placeOf(int i, int size, int image_size) {
+    const float position =
+        (static_cast<float>(i) + 0.5F) * static_cast<float>(image_size) / static_cast<float>(size) - 0.5F;
+    const int floor = static_cast<int>(std::floor(position));
+    const auto wrapped = [&](int at) { return (at % image_size + image_size) % image_size; };
+    return {wrapped(floor), wrapped(floor + 1), position - static_cast<float>(floor)};
+}
+
+// Puts one channel of the image into one of the RGBA pixels, through table; enlarges where it must.
+void putChannel(Bytes& pixels, glm::ivec2 size, int to, const Image& image, int from, const Bytes& table) {
+    const Bytes& bytes = std::get<Bytes>(image.pixels);
+    const int channels = image.channels;
+    from = channels < 3 ? (from == 3 && channels == 2 ? 1 : 0) : std::min(from, channels - 1);
+    const auto index = [&](int x, int y) {
+        return static_cast<std::size_t>(y * image.width + x) * static_cast<std::size_t>(channels) +
+               static_cast<std::size_t>(from);
+    };
+    std::uint8_t* out = pixels.data() + to;
+    if (sizeOf(&image) == size) {
+        const std::uint8_t* in = bytes.data() + from;
+        for (std::size_t left = pixels.size() / 4; left > 0; --left, in += channels, out += 4)
+            *out = table[*in];
+        return;
+    }
+    for (int y = 0; y < size.y; ++y) {
+        const Place row = placeOf(y, size.y, image.height);
+        for (int x = 0; x < size.x; ++x, out += 4) {
+            const Place column = placeOf(x, size.x, image.width);
+            const auto across = [&](int in_row) {
+                return std::lerp(static_cast<float>(table[bytes[index(column.first, in_row)]]),
+                                 static_cast<float>(table[bytes[index(column.second, in_row)]]),
+                                 column.fraction);
+            };
+            *out = static_cast<std::uint8_t>(
+                std::lround(std::lerp(across(row.first), across(row.second), row.fraction)));
+        }
+    }
+}
+
+// What each byte becomes under value * factor + offset.
+Bytes table(float factor, float offset) {
+    Bytes result(256);
+    for (int i = 0; i < 256; ++i)
+        result[static_cast<std::size_t>(i)] = byteOf(static_cast<float>(i) / 255 * factor + offset);
+    return result;
+}
+
+Texture upload(const Bytes& pixels, glm::ivec2 size, bool is_color, MaterialFilter filter) {
+    const bool mipmapped = filter != MaterialFilter::bilinear;
+    return Texture({.size = size,
+                    .format = is_color && mipmapped ? Format::srgb8_alpha8 : Format::rgba8,
+                    .filter = mipmapped ? Filter::trilinear : Filter::linear,
+                    .wrap_x = Wrap::repeat,
+                    .wrap_y = Wrap::repeat,
+                    .levels = mipmapped ? levelCount(size) : 1,
+                    .anisotropy = filter == MaterialFilter::anisotropic ? 16.0F : 1.0F},
+                   pixels);
+}
+
+// rgb from one image, alpha from a channel of another; what an absent image stands for is filled in.
+Texture packed(ImageCache& cache, const ImageSource& color, glm::ivec3 color_default,
+               const ImageChannel& alpha, float alpha_factor, float alpha_offset, bool is_color,
+               MaterialFilter filter) {
+    const Image* color_image = cache.get(color);
+    const Image* alpha_image = cache.get(alpha.image);
+    const glm::ivec2 size = glm::max(sizeOf(color_image), sizeOf(alpha_image));
+    Bytes pixels(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * 4);
+    const Bytes same = table(1, 0);
+    for (std::size_t i = 0; i < pixels.size() && color_image == nullptr; i += 4)
+        for (int c = 0; c < 3; ++c)
+            pixels[i + static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(color_default[c]);
+    for (int c = 0; c < 3 && color_image != nullptr; ++c)
+        putChannel(pixels, size, c, *color_image, c, same);
+    for (std::size_t i = 3; i < pixels.size() && alpha_image == nullptr; i += 4)
+        pixels[i] = byteOf(alpha_factor + alpha_offset);
+    if (alpha_image != nullptr)
+        putChannel(pixels, size, 3, *alpha_image, alpha.channel, table(alpha_factor, alpha_offset));
+    return upload(pixels, size, is_color, filter);
+}
+
+} // namespace
+
+MaterialTextures loadMaterial(const MaterialData& material, MaterialFilter filter) {
+    ImageCache cache;
+    const float open = 1 - material.occlusion_strength;
+    return {.base = packed(cache, material.base_colour_image, {255, 255, 255}, material.occlusion,
+                           material.occlusion_strength, open, true, filter),
+            .surface = packed(cache, material.normal_image, {128, 128, 255}, material.roughness_image,
+                              material.roughness, 0, false, filter)};
+}
+
+} // namespace gll

@@ -1,0 +1,23 @@
+// A surface's images as the geometry pass reads them: packed into two textures, so that it fetches twice.
+#pragma once
+
+#include "gl/texture.hpp"
+#include "io/mesh.hpp"
+
+#include <glm/vec3.hpp>
+
+namespace gll {
+
+enum class MaterialFilter { bilinear, mipmapped, anisotropic };
+
+struct MaterialTextures {
+    Texture base;    // rgb: albedo as the image has it, sRGB; decoded by the texture unit unless bilinear.
+                     // a: occlusion, 1 is open
+    Texture surface; // rgb: tangent-space normal * 0.5 + 0.5, green up the image. a: roughness
+};
+
+// Reads the images of a material and packs them; one that is smaller than its texture is enlarged
+// bilinearly. Row 0 of an image is at v = 0. Throws std::runtime_error naming the image that cannot be read.
+MaterialTextures loadMaterial(const MaterialData& material, MaterialFilter filter);
+
+} // namespace gll

@@ -1,0 +1,112 @@
+// Loading the scene and listing its draws.
+#include "scene.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <glm/common.hpp>
+#include <stdexcept>
+
+namespace gll {
+namespace {
+
+constexpr float statue_height = 2.2F;
+constexpr float floor_half_width = 6;
+constexpr float floor_uv_per_unit = 0.35F;
+
+struct Vertex {
+    glm::vec3 position;
+    glm::vec3 normal;
+    glm::vec2 uv;
+};
+
+Mesh makeMesh(std::span<const Vertex> vertices, std::span<const std::uint32_t> indices) {
+    return Mesh({.vertices = std::as_bytes(vertices),
+                 .vertex_stride_bytes = sizeof(Vertex),
+                 .attributes = {{0, 3, offsetof(Vertex, position)},
+                                {1, 3, offsetof(Vertex, normal)},
+                                {2, 2, offsetof(Vertex, uv)}},
+                 .indices = indices});
+}
+
+// Scaled to the statue's height, its base on the floor, its middle on the y axis.
+Mesh makeStatue(const MeshData& data, const std::filesystem::path& path) {
+    glm::vec3 lowest = data.positions.front();
+    glm::vec3 highest = lowest;
+    for (const glm::vec3& position : data.positions) {
+        lowest = glm::min(lowest, position);
+        highest = glm::max(highest, position);
+    }
+    const float scale = statue_height / (highest.y - lowest.y);
+    if (!std::isfinite(scale))
+        throw std::runtime_error(path.string() + ": is flat; a model to stand on the floor needs a height");
+    const glm::vec3 base(0.5F * (lowest.x + highest.x), lowest.y, 0.5F * (lowest.z + highest.z));
+    std::vector<Vertex> vertices;
+    vertices.reserve(data.positions.size());
+    for (std::size_t i = 0; i < data.positions.size(); ++i)
+        vertices.push_back({(data.positions[i] - base) * scale, data.normals[i], data.uvs[i]});
+    return makeMesh(vertices, data.indices);
+}
+
+Mesh makeFloor() {
+    std::vector<Vertex> vertices;
+    for (const glm::vec2 corner : {glm::vec2(-1, 1), glm::vec2(1, 1), glm::vec2(1, -1), glm::vec2(-1, -1)}) {
+        const glm::vec2 place = corner * floor_half_width;
+        vertices.push_back({{place.x, 0, place.y}, {0, 1, 0}, place * floor_uv_per_unit});
+    }
+    constexpr std::uint32_t indices[] = {0, 1, 2, 0, 2, 3};
+    return makeMesh(vertices, indices);
+}
+
+} // namespace
+
+Scene::Scene(const std::filesystem::path& mesh, const std::filesystem::path& floor)
+    : statue_(Mesh::fullScreenTriangle()), floor_(makeFloor()) {
+    const MeshData data = loadMesh(mesh);
+    statue_ = makeStatue(data, mesh);
+    for (const MaterialData& material : data.materials)
+        surfaces_.push_back({.data = material,
+                             .occluded_albedo = 0.55F,
+                             .specular_scale = 0.6F,
+                             .shininess = seed_shininess.x,
+                             .normal_strength = material.normal_scale,
+                             .tag = 0,
+                             .textures = {}});
+    for (const MeshPart& part : data.parts)
+        parts_.push_back({&statue_, part.material, part.first_index, part.index_count});
+    // the floor's normals are exaggerated, or the mortar would not be seen
+    const MaterialData material = loadMtl(floor).front();
+    surfaces_.push_back({.data = material,
+                         .occluded_albedo = 0.5F,
+                         .specular_scale = 0.4F,
+                         .shininess = seed_shininess.y,
+                         .normal_strength = 3 * material.normal_scale,
+                         .tag = 1,
+                         .textures = {}});
+    parts_.push_back({&floor_, surfaces_.size() - 1, 0, 0});
+}
+
+std::vector<Draw> Scene::materialDraws(MaterialFilter filter, bool flip_v) {
+    std::vector<Draw> draws;
+    for (const Part& part : parts_) {
+        Surface& surface = surfaces_[part.surface];
+        std::optional<MaterialTextures>& textures = surface.textures[static_cast<std::size_t>(filter)];
+        if (!textures) textures = loadMaterial(surface.data, filter);
+        draws.push_back({.mesh = *part.mesh,
+                         .inputs = {{"base_map", textures->base}, {"surface_map", textures->surface}},
+                         .uniforms = {{"base_color", glm::vec3(surface.data.base_colour)},
+                                      {"occluded_albedo", surface.occluded_albedo},
+                                      {"specular_scale", surface.specular_scale},
+                                      {"shininess", surface.shininess},
+                                      {"normal_strength", surface.normal_strength},
+                                      {"material", surface.tag},
+                                      {"v_factor_offset",
+                                       flip_v && part.mesh == &statue_ ? glm::vec2(-1, 1) : glm::vec2(1, 0)}},
+                         .first_index = part.first_index,
+                         .index_count = part.index_count});
+    }
+    return draws;
+}
+
+std::vector<Draw> Scene::depthDraws() const { return {{.mesh = floor_}, {.mesh = statue_}}; }
+
+} // namespace gll

@@ -1,0 +1,46 @@
+// The scene of 10_deferred: a statue of height 2.2 on a floor of 12 x 12, both modelled in world space.
+#pragma once
+
+#include "gl/pass.hpp"
+#include "material.hpp"
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace gll {
+
+class Scene {
+  public:
+    // mesh: .obj, .gltf or .glb, scaled and moved to stand on the floor; floor: .mtl, its first material.
+    // Throws std::runtime_error naming the file that cannot be used.
+    Scene(const std::filesystem::path& mesh, const std::filesystem::path& floor);
+
+    // Attributes 0: position, 1: normal, 2: uv; nearest the camera first, so that the depth test spares what
+    // is behind. The draws last as long as the scene and until the next call with another filter.
+    // flip_v turns the statue's texture coordinates over.
+    std::vector<Draw> materialDraws(MaterialFilter filter, bool flip_v);
+    std::vector<Draw> depthDraws() const;
+
+  private:
+    struct Surface { // a material and how the seed treats it
+        MaterialData data;
+        float occluded_albedo, specular_scale, shininess, normal_strength, tag;
+        std::array<std::optional<MaterialTextures>, 3> textures; // by filter, loaded when first drawn
+    };
+    struct Part {
+        const Mesh* mesh;
+        std::size_t surface;
+        std::uint32_t first_index, index_count;
+    };
+
+    Mesh statue_;
+    Mesh floor_;
+    std::vector<Surface> surfaces_;
+    std::vector<Part> parts_;
+};
+
+inline constexpr glm::vec2 seed_shininess = {48, 24}; // of statue and floor
+
+} // namespace gll
