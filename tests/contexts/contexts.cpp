@@ -12,20 +12,26 @@ using namespace gll;
 using namespace gll::test;
 
 struct Request {
-    const char* name;
-    const char* line; // of --batch, without "out"
+    std::string name;
+    nlohmann::json line; // of --batch, without "out"
 };
 
-// Sizes that no row of SIMD lanes or tile divides evenly, so that edges would show.
-const std::vector<Request> requests = {{"default.png", R"({"frame": 60, "size": "640x480"})"},
-                                       {"odd.png", R"({"frame": 1, "size": "641x479"})"},
-                                       {"tiny.png", R"({"frame": 180, "size": "2x3"})"},
-                                       {"hdr.exr", R"({"frame": 60, "size": "333x222", "target": "hdr"})"}};
+// Sizes that no row of SIMD lanes or tile divides evenly, so that edges would show; then every target.
+std::vector<Request> requestsFor(const std::filesystem::path& rung) {
+    std::vector<Request> requests = {{"default.png", {{"frame", 60}, {"size", "640x480"}}},
+                                     {"odd.png", {{"frame", 1}, {"size", "641x479"}}},
+                                     {"tiny.png", {{"frame", 180}, {"size", "2x3"}}}};
+    const auto listed = nlohmann::json::parse(runToSuccess({rung, {"--settings", "--json"}}).out);
+    for (const std::string target : listed.at("targets"))
+        requests.push_back({target + ".exr", {{"frame", 60}, {"size", "333x222"}, {"target", target}}});
+    return requests;
+}
 
-void renderAll(const std::filesystem::path& rung, const std::string& context, const TemporaryFolder& folder) {
+void renderAll(const std::filesystem::path& rung, const std::vector<Request>& requests,
+               const std::string& context, const TemporaryFolder& folder) {
     std::string lines;
     for (const Request& request : requests) {
-        auto line = nlohmann::json::parse(request.line);
+        nlohmann::json line = request.line;
         line["out"] = (folder / (context + "_" + request.name)).string();
         lines += line.dump() + "\n";
     }
@@ -42,15 +48,16 @@ bool identical(const Image& a, const Image& b) {
 
 int check(const std::filesystem::path& rung) {
     const TemporaryFolder folder;
-    renderAll(rung, "osmesa", folder);
-    renderAll(rung, "egl", folder);
+    const std::vector<Request> requests = requestsFor(rung);
+    renderAll(rung, requests, "osmesa", folder);
+    renderAll(rung, requests, "egl", folder);
     int failures = 0;
     for (const Request& request : requests) {
-        const Image osmesa = loadImage(folder / (std::string("osmesa_") + request.name));
-        const Image egl = loadImage(folder / (std::string("egl_") + request.name));
+        const Image osmesa = loadImage(folder / ("osmesa_" + request.name));
+        const Image egl = loadImage(folder / ("egl_" + request.name));
         const bool same = identical(osmesa, egl);
         const Comparison comparison = compare(osmesa, egl);
-        std::printf("%s: OSMesa and EGL %s\n%s", request.name, same ? "agree" : "DIFFER",
+        std::printf("%s: OSMesa and EGL %s\n%s", request.name.c_str(), same ? "agree" : "DIFFER",
                     comparison.comparable ? (comparison.summary() + "\n" + comparison.map()).c_str() : "");
         failures += same ? 0 : 1;
     }

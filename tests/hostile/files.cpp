@@ -1,0 +1,66 @@
+// Models, materials and skies that a rung is given and cannot use: said in one line that names the file.
+#include "hostile/hostile.hpp"
+
+namespace gll::test {
+namespace {
+
+// The rung with one file given, of these contents.
+void expectFileRefused(const char* option, const std::string& name, const std::string& contents,
+                       const std::vector<std::string>& parts) {
+    const TemporaryFolder folder;
+    folder.write(name, contents);
+    expectRefusal(run(rungCommand(folder, {"--size", "8x8", option, name, "--out", "frame.png"})), 1, parts);
+    EXPECT_EQ(folder.listing(), std::vector<std::string>{name});
+}
+
+TEST(Files, thatAreNotThereAreRefused) {
+    checkRefusal({"", {"--size", "8x8", "--mesh", "{}/no.obj", "--out", "{}/frame.png"}, 1, {"no.obj"}});
+    checkRefusal({"", {"--size", "8x8", "--floor", "{}/no.mtl", "--out", "{}/frame.png"}, 1, {"no.mtl"}});
+    checkRefusal(
+        {"", {"--size", "8x8", "--environment", "{}/no.hdr", "--out", "{}/frame.png"}, 1, {"no.hdr"}});
+}
+
+TEST(Files, thatAreFoldersAreRefused) {
+    for (const char* option : {"--mesh", "--floor", "--environment"}) {
+        const TemporaryFolder folder;
+        std::filesystem::create_directory(folder / "folder.obj");
+        expectRefusal(run(rungCommand(folder, {"--size", "8x8", option, "folder.obj", "--out", "frame.png"})),
+                      1, {"folder.obj"});
+    }
+}
+
+TEST(Files, ofAnotherKindAreRefused) {
+    expectFileRefused("--mesh", "mesh.stl", "solid\n", {"mesh.stl"});
+    expectFileRefused("--environment", "sky.hdr", "not a picture", {"sky.hdr"});
+    expectFileRefused("--environment", "sky.exr", "", {"sky.exr"});
+}
+
+TEST(Files, withNothingInThemAreRefused) {
+    expectFileRefused("--mesh", "mesh.obj", "", {"mesh.obj"});
+    expectFileRefused("--mesh", "mesh.gltf", "", {"mesh.gltf"});
+    expectFileRefused("--mesh", "mesh.glb", "glTF", {"mesh.glb"});
+    expectFileRefused("--floor", "floor.mtl", "", {"floor.mtl"});
+}
+
+TEST(Files, withABrokenMeshAreRefusedByLine) {
+    expectFileRefused("--mesh", "mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", {"mesh.obj:4"});
+    expectFileRefused("--mesh", "mesh.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", {"mesh.obj:2"});
+    expectFileRefused("--mesh", "mesh.obj", "mtllib no.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+                      {"no.mtl"});
+}
+
+TEST(Files, withATextureThatIsMissingAreRefused) {
+    expectFileRefused("--floor", "floor.mtl", "newmtl a\nmap_Kd no.png\n", {"floor.mtl:2", "no.png"});
+}
+
+TEST(Files, whoseHeadersLieAreRefused) {
+    expectFileRefused("--environment", "sky.hdr",
+                      "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 100000 +X 100000\n", {"sky.hdr"});
+    expectFileRefused(
+        "--mesh", "mesh.gltf",
+        R"({"asset": {"version": "2.0"}, "nodes": [{"children": [0]}], "scenes": [{"nodes": [0]}]})",
+        {"mesh.gltf", "/nodes/0"});
+}
+
+} // namespace
+} // namespace gll::test
