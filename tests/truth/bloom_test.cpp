@@ -1,7 +1,7 @@
 // 05_hdr_bloom's passes, as its command line writes them, against the same passes computed in double from the
 // floats each of them read: bright pass, every filter down and up, the whole chain, and the presented frame.
-#include "../unit/temporary_folder.hpp"
 #include "io/image.hpp"
+#include "support/temporary_folder.hpp"
 #include "tone_reference.hpp"
 
 #include <cstdio>
@@ -293,7 +293,8 @@ TEST_F(BloomTruth, theBrightPassIsItsFormulaForEveryKarisWeight) {
             const Plane expected = bright(hdr, actual.width, actual.height, karis);
             const Error error = errorOf(actual, expected);
             print(size + " bright " + karis, error);
-            EXPECT_LE(error.ulps(), karis == "texel" ? bright_texel_ulps : bright_mean_ulps) << size << " " << karis;
+            EXPECT_LE(error.ulps(), karis == "texel" ? bright_texel_ulps : bright_mean_ulps)
+                << size << " " << karis;
         }
 }
 

@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 
 namespace {
 
-void refusesText(const TestFolder& folder, const std::string& bytes,
+void refusesText(const TemporaryFolder& folder, const std::string& bytes,
                  std::initializer_list<std::string_view> parts) {
     const auto path = folder.write("bad.gltf", bytes);
     expectError(path, parts, [&] { loadMesh(path); });
@@ -24,7 +24,7 @@ void refusesText(const TestFolder& folder, const std::string& bytes,
 
 // A good file after one change.
 void refuses(std::initializer_list<std::string_view> parts, const std::function<void(GltfMaker&)>& change) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     GltfMaker maker;
     change(maker);
     refusesText(folder, maker.gltf(), parts);
@@ -46,19 +46,19 @@ void refusesPatch(std::initializer_list<std::string_view> parts, const std::stri
 } // namespace
 
 TEST(HostileGltf, WhatIsNoFileIsNotOpened) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     for (const char* name : {"a.gltf", "a.glb"}) {
-        expectError(folder.path / name, {"no such file"}, [&] { loadMesh(folder.path / name); });
-        std::filesystem::create_directory(folder.path / name);
-        expectError(folder.path / name, {"is a folder"}, [&] { loadMesh(folder.path / name); });
+        expectError(folder.path() / name, {"no such file"}, [&] { loadMesh(folder.path() / name); });
+        std::filesystem::create_directory(folder.path() / name);
+        expectError(folder.path() / name, {"is a folder"}, [&] { loadMesh(folder.path() / name); });
     }
-    const auto fifo = folder.path / "fifo.glb";
+    const auto fifo = folder.path() / "fifo.glb";
     ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
     expectError(fifo, {"not a regular file"}, [&] { loadMesh(fifo); });
 }
 
 TEST(HostileGltf, WhatIsNotJsonIsRefused) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     refusesText(folder, "", {"is empty"});
     refusesText(folder, "{", {"is not JSON"});
     refusesText(folder, "[]", {"not a JSON object"});
@@ -72,7 +72,7 @@ TEST(HostileGltf, WhatIsNotJsonIsRefused) {
 }
 
 TEST(HostileGltf, AFileCutOffAnywhereIsRefused) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const GltfMaker maker;
     for (const std::string& whole : {maker.gltf(), maker.glb()})
         for (std::size_t length = 0; length < whole.size(); ++length)
@@ -80,7 +80,7 @@ TEST(HostileGltf, AFileCutOffAnywhereIsRefused) {
 }
 
 TEST(HostileGltf, JsonNestedDeeperThan64LevelsIsRefusedUnparsed) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     std::string deep = "0";
     for (int i = 0; i < 5000; ++i)
         deep = "{\"extras\":" + deep + "}";
@@ -93,7 +93,7 @@ TEST(HostileGltf, JsonNestedDeeperThan64LevelsIsRefusedUnparsed) {
 }
 
 TEST(HostileGltf, BinaryHeadersAndChunksThatLieAreRefused) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const std::string good = GltfMaker().glb();
     const auto bent = [&](std::size_t at, std::uint32_t value) {
         return std::string(good).replace(at, 4, packed<std::uint32_t>({value}));
@@ -291,12 +291,12 @@ TEST(HostileGltf, NodesThatGoRoundOrTooDeepAreRefused) {
 }
 
 TEST(HostileGltf, UrisOutsideTheFolderAreRefused) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     folder.write("secret.bin", std::string(36, '\0'));
-    std::filesystem::create_directory(folder.path / "in");
-    std::filesystem::create_symlink("../secret.bin", folder.path / "in/link.bin");
-    std::filesystem::create_directory(folder.path / "in/folder.bin");
-    ASSERT_EQ(::mkfifo((folder.path / "in/fifo.bin").c_str(), 0600), 0);
+    std::filesystem::create_directory(folder.path() / "in");
+    std::filesystem::create_symlink("../secret.bin", folder.path() / "in/link.bin");
+    std::filesystem::create_directory(folder.path() / "in/folder.bin");
+    ASSERT_EQ(::mkfifo((folder.path() / "in/fifo.bin").c_str(), 0600), 0);
     for (const char* uri :
          {"../secret.bin", "%2e%2e/secret.bin", "..%2Fsecret.bin", "..%5Csecret.bin", "x/../../secret.bin",
           "/etc/passwd", "%2Fetc/passwd", "file:///etc/passwd", "http://example.org/a.bin", "link.bin",

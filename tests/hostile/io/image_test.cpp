@@ -15,7 +15,7 @@ using namespace std::string_literals;
 
 namespace {
 
-void refuses(const TestFolder& folder, const std::string& bytes,
+void refuses(const TemporaryFolder& folder, const std::string& bytes,
              std::initializer_list<std::string_view> parts) {
     const auto path = folder.write("bad", bytes);
     expectError(path, parts, [&] { loadImage(path); });
@@ -51,18 +51,18 @@ Image sample(bool eight_bits) {
 } // namespace
 
 TEST(HostileImage, WhatIsNoFileIsNotOpened) {
-    const TestFolder folder;
-    const auto missing = folder.path / "missing.png";
+    const TemporaryFolder folder;
+    const auto missing = folder.path() / "missing.png";
     expectError(missing, {"no such file"}, [&] { loadImage(missing); });
-    expectError(folder.path, {"is a folder"}, [&] { loadImage(folder.path); });
-    const auto fifo = folder.path / "fifo.png";
+    expectError(folder.path(), {"is a folder"}, [&] { loadImage(folder.path()); });
+    const auto fifo = folder.path() / "fifo.png";
     ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
     expectError(fifo, {"not a regular file"}, [&] { loadImage(fifo); }); // opening it would wait for ever
     expectError("/dev/zero", {"not a regular file"}, [&] { loadImage("/dev/zero"); });
 }
 
 TEST(HostileImage, OtherFormatsAreRefusedWhateverTheirName) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     refuses(folder, "", {"is empty"});
     refuses(folder, "\x89", {"is no PNG, JPEG, Radiance HDR or EXR"});
     refuses(folder, "GIF89a\x01\0\x01\0\0\0\0;"s, {"is no PNG"});
@@ -72,10 +72,10 @@ TEST(HostileImage, OtherFormatsAreRefusedWhateverTheirName) {
 }
 
 TEST(HostileImage, FilesCutOffAnywhereAreRefused) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     for (const char* name : {"a.png", "a.hdr", "a.exr"}) {
-        saveImage(folder.path / name, sample(name == "a.png"s));
-        const std::string whole = bytesOf(folder.path / name);
+        saveImage(folder.path() / name, sample(name == "a.png"s));
+        const std::string whole = bytesOf(folder.path() / name);
         for (std::size_t length = 0; length < whole.size(); length += 1 + length / 16)
             refuses(folder, whole.substr(0, length), {});
         refuses(folder, whole.substr(0, whole.size() - 1), {});
@@ -83,7 +83,7 @@ TEST(HostileImage, FilesCutOffAnywhereAreRefused) {
 }
 
 TEST(HostileImage, ATruncatedJpegIsNotFilledWithGrey) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     // 8x8 grey, all coefficients zero; made by hand from the JPEG specification's baseline segments.
     const std::string quantisation = "\xff\xdb\x00\x43\x00"s + std::string(64, '\x01');
     const std::string frame = "\xff\xc0\x00\x0b\x08\x00\x08\x00\x08\x01\x01\x11\x00"s;
@@ -99,7 +99,7 @@ TEST(HostileImage, ATruncatedJpegIsNotFilledWithGrey) {
 }
 
 TEST(HostileImage, SizesOutsideTheLimitsAreRefusedBeforeMemoryIsAskedFor) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     refuses(folder, hdr("-Y 100000 +X 100000", ""), {"100000x100000"});
     refuses(folder, hdr("-Y -5 +X -7", "abcd"), {"-7x-5"});
     refuses(folder, hdr("-Y 0 +X 4", "abcd"), {"4x0"});
@@ -114,9 +114,9 @@ TEST(HostileImage, SizesOutsideTheLimitsAreRefusedBeforeMemoryIsAskedFor) {
 }
 
 TEST(HostileImage, AnExrWithAHugeDataWindowIsRefused) {
-    const TestFolder folder;
-    saveImage(folder.path / "a.exr", sample(false));
-    const std::string whole = bytesOf(folder.path / "a.exr");
+    const TemporaryFolder folder;
+    saveImage(folder.path() / "a.exr", sample(false));
+    const std::string whole = bytesOf(folder.path() / "a.exr");
     const std::size_t window = whole.find("dataWindow\0box2i\0"s) + 21;
     for (const auto& [right, bottom] :
          {std::pair("\xff\xff\xff\x7f", "\xff\xff\xff\x7f"), {"\x9f\x86\x01\0", "\x9f\x86\x01\0"}}) {
@@ -131,7 +131,7 @@ TEST(HostileImage, AnExrWithAHugeDataWindowIsRefused) {
 }
 
 TEST(HostileImage, HdrHeadersThatMeanSomethingElseAreRefused) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     refuses(folder, "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\nabcd", {"RGBE"});
     refuses(folder, hdr("+Y 1 +X 1", "abcd"), {"'+Y 1 +X 1'", "-Y height +X width"});
     refuses(folder, hdr("+X 1 -Y 1", "abcd"), {"-Y height +X width"});

@@ -14,13 +14,13 @@ namespace {
 // Vertices, texture coordinates and normals on lines 1 to 3, three of each kind.
 const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\n"; // 7 lines
 
-void refuses(const TestFolder& folder, const std::string& text,
+void refuses(const TemporaryFolder& folder, const std::string& text,
              std::initializer_list<std::string_view> parts) {
     const auto path = folder.write("bad.obj", text);
     expectError(path, parts, [&] { loadMesh(path); });
 }
 
-void refusesMtl(const TestFolder& folder, const std::string& text,
+void refusesMtl(const TemporaryFolder& folder, const std::string& text,
                 std::initializer_list<std::string_view> parts) {
     const auto path = folder.write("bad.mtl", text);
     expectError(path, parts, [&] { loadMtl(path); });
@@ -29,13 +29,13 @@ void refusesMtl(const TestFolder& folder, const std::string& text,
 } // namespace
 
 TEST(HostileObj, WhatIsNoFileIsNotOpened) {
-    const TestFolder folder;
-    const auto missing = folder.path / "missing.obj";
+    const TemporaryFolder folder;
+    const auto missing = folder.path() / "missing.obj";
     expectError(missing, {"no such file"}, [&] { loadMesh(missing); });
-    const auto directory = folder.path / "folder.obj";
+    const auto directory = folder.path() / "folder.obj";
     std::filesystem::create_directory(directory);
     expectError(directory, {"is a folder"}, [&] { loadMesh(directory); });
-    const auto fifo = folder.path / "fifo.obj";
+    const auto fifo = folder.path() / "fifo.obj";
     ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
     expectError(fifo, {"not a regular file"}, [&] { loadMesh(fifo); });
     const auto other = folder.write("a.fbx", "Kaydara");
@@ -43,7 +43,7 @@ TEST(HostileObj, WhatIsNoFileIsNotOpened) {
 }
 
 TEST(HostileObj, AMeshWithoutVerticesOrFacesIsRefused) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     refuses(folder, "", {"has no vertices"});
     refuses(folder, "# nothing\n", {"has no vertices"});
     refuses(folder, three, {"has no faces"});
@@ -52,7 +52,7 @@ TEST(HostileObj, AMeshWithoutVerticesOrFacesIsRefused) {
 }
 
 TEST(HostileObj, IndicesOutOfRangeNameTheirLine) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     refuses(folder, three + "f 1 2 99\n", {":8: ", "vertex index '99'", "3 so far"});
     refuses(folder, three + "f 1 2 3\nf -4 -5 -6\n", {":9: ", "'-4'"});
     refuses(folder, three + "f 0 1 2\n", {":8: ", "'0'"});
@@ -64,7 +64,7 @@ TEST(HostileObj, IndicesOutOfRangeNameTheirLine) {
 }
 
 TEST(HostileObj, MalformedFacesNameTheirLine) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     refuses(folder, three + "f\n", {":8: ", "0 corners"});
     refuses(folder, three + "f 1 2\n", {":8: ", "2 corners"});
     refuses(folder, three + "f 1 2 x\n", {":8: ", "'x'"});
@@ -80,7 +80,7 @@ TEST(HostileObj, MalformedFacesNameTheirLine) {
 }
 
 TEST(HostileObj, NumbersThatAreNoneNameTheirLine) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     refuses(folder, "v 0 0 0\r\nv nan 0 0\r\n", {":2: ", "'nan'"});
     refuses(folder, "v 0 0 0\rv 0 -inf 0\r", {":2: ", "'-inf'"});
     refuses(folder, "v 1e39 0 0\n", {":1: ", "'1e39'"});
@@ -96,7 +96,7 @@ TEST(HostileObj, NumbersThatAreNoneNameTheirLine) {
 }
 
 TEST(HostileObj, MissingLibrariesMaterialsAndTexturesAreNamedWithTheirLine) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     refuses(folder, "mtllib gone.mtl\n" + three + "f 1 2 3\n", {":1: ", "'gone.mtl'", "missing"});
     refuses(folder, "\nmtllib\n", {":2: ", "names no file"});
     refuses(folder, three + "usemtl unknown\nf 1 2 3\n", {":8: ", "'unknown'"});
@@ -107,7 +107,7 @@ TEST(HostileObj, MissingLibrariesMaterialsAndTexturesAreNamedWithTheirLine) {
 }
 
 TEST(HostileObj, FilesOutsideTheFolderAreRefused) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     folder.write("secret.mtl", "newmtl a\n");
     folder.write("secret.png", "secret");
     const auto inside = [&](const std::string& text) {
@@ -120,16 +120,16 @@ TEST(HostileObj, FilesOutsideTheFolderAreRefused) {
     inside("newmtl a\nmap_Kd /etc/passwd");
     inside("newmtl a\nmap_Kd C:/secret.png");
     inside("newmtl a\nmap_Kd file:///etc/passwd");
-    std::filesystem::create_symlink("../secret.png", folder.path / "in/link.png");
+    std::filesystem::create_symlink("../secret.png", folder.path() / "in/link.png");
     inside("newmtl a\nmap_Kd link.png");
-    std::filesystem::create_directory(folder.path / "in/folder.png");
+    std::filesystem::create_directory(folder.path() / "in/folder.png");
     inside("newmtl a\nmap_Kd folder.png");
     const auto mesh = folder.write("in/bad.obj", "mtllib ../secret.mtl\n" + three + "f 1 2 3\n");
     expectError(mesh, {":1: ", "leaves the file's folder"}, [&] { loadMesh(mesh); });
 }
 
 TEST(HostileMtl, MalformedMaterialsNameTheirLine) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     folder.write("a.png", "x");
     refusesMtl(folder, "", {"has no material"});
     refusesMtl(folder, "Kd 1 1 1\n", {":1: ", "before the first newmtl"});

@@ -1,7 +1,8 @@
 // The command line and the batch file: what they accept, their defaults, and where errors point to.
 #include "app/options.hpp"
 #include "app/usage_error.hpp"
-#include "temporary_folder.hpp"
+#include "support/messages.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // Finding shaders and assets: from the program's place, then GLLADDER_ROOT, never from the current directory.
 #include "app/resources.hpp"
-#include "temporary_folder.hpp"
+#include "support/messages.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 

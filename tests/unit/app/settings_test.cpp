@@ -1,7 +1,8 @@
 // Settings: what each kind accepts, how they are spelt, presets, and the command line they make.
 #include "app/settings.hpp"
 #include "app/usage_error.hpp"
-#include "temporary_folder.hpp"
+#include "support/messages.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 

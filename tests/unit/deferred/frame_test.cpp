@@ -1,6 +1,7 @@
 // What must hold of the rung's frames, whatever the scene: rendered by the program, as people run it.
 #include "io/image.hpp"
-#include "temporary_folder.hpp"
+#include "support/messages.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <cmath>
 #include <cstdlib>

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <dlfcn.h>
+#include <fstream>
 #include <stdexcept>
 #include <unistd.h>
 

@@ -4,7 +4,8 @@
 #include "app/capture.hpp"
 #include "app/context.hpp"
 #include "gl/pass.hpp"
-#include "temporary_folder.hpp"
+#include "support/messages.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 

@@ -17,14 +17,14 @@ namespace {
 
 const std::vector<glm::vec3> triangle = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
 
-MeshData load(const TestFolder& folder, const GltfMaker& maker) {
+MeshData load(const TemporaryFolder& folder, const GltfMaker& maker) {
     return loadMesh(folder.write("a.gltf", maker.gltf()));
 }
 
 } // namespace
 
 TEST(Gltf, ATriangleComesOutAsItIsWritten) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const MeshData mesh = load(folder, GltfMaker());
     EXPECT_EQ(mesh.positions, triangle);
     EXPECT_EQ(mesh.normals, std::vector<glm::vec3>(3, glm::vec3(0, 0, 1))) << "flat, from the face";
@@ -37,7 +37,7 @@ TEST(Gltf, ATriangleComesOutAsItIsWritten) {
 }
 
 TEST(Gltf, ABinaryFileAndAnExternalBufferHoldTheSameMesh) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     GltfMaker maker;
     EXPECT_EQ(loadMesh(folder.write("a.glb", maker.glb())).positions, triangle);
     EXPECT_EQ(loadMesh(folder.write("named_wrongly.gltf", maker.glb())).positions, triangle);
@@ -47,7 +47,7 @@ TEST(Gltf, ABinaryFileAndAnExternalBufferHoldTheSameMesh) {
 }
 
 TEST(Gltf, IndicesMayHaveOneTwoOrFourBytes) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const auto indices = [&](const std::string& bytes, int component_type) {
         GltfMaker maker;
         maker.attributes()["NORMAL"] =
@@ -62,7 +62,7 @@ TEST(Gltf, IndicesMayHaveOneTwoOrFourBytes) {
 }
 
 TEST(Gltf, StripsAndFansBecomeTrianglesOfOneWinding) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const auto made = [&](int mode, const std::vector<float>& corners) {
         GltfMaker maker;
         maker.attributes()["POSITION"] = maker.accessor(packed(corners), 5126, "VEC3", 4);
@@ -76,7 +76,7 @@ TEST(Gltf, StripsAndFansBecomeTrianglesOfOneWinding) {
 }
 
 TEST(Gltf, PointsAndLinesAreSkippedBesideTriangles) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     GltfMaker maker;
     for (int mode = 0; mode < 4; ++mode) {
         Json other = maker.primitive();
@@ -87,7 +87,7 @@ TEST(Gltf, PointsAndLinesAreSkippedBesideTriangles) {
 }
 
 TEST(Gltf, InterleavedViewsAreReadByTheirStride) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     GltfMaker maker;
     // position, normal, uv of one vertex after the other: 32 bytes each
     const std::size_t view = maker.view(
@@ -112,7 +112,7 @@ TEST(Gltf, InterleavedViewsAreReadByTheirStride) {
 }
 
 TEST(Gltf, SparseAccessorsReplaceElementsOrStandAlone) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     GltfMaker maker;
     const Json sparse = {
         {"count", 2},
@@ -125,7 +125,7 @@ TEST(Gltf, SparseAccessorsReplaceElementsOrStandAlone) {
 }
 
 TEST(Gltf, NormalisedIntegersSpanZeroToOne) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     GltfMaker maker;
     const std::size_t bytes = maker.accessor(packed<std::uint8_t>({0, 255, 51, 0, 255, 0}), 5121, "VEC2", 3);
     maker.json["accessors"][bytes]["normalized"] = true;
@@ -139,7 +139,7 @@ TEST(Gltf, NormalisedIntegersSpanZeroToOne) {
 }
 
 TEST(Gltf, NodesMoveTurnAndScaleInThatOrderDownTheTree) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     GltfMaker maker;
     const float half = std::sqrt(0.5f);
     maker.json["nodes"] = {
@@ -155,7 +155,7 @@ TEST(Gltf, NodesMoveTurnAndScaleInThatOrderDownTheTree) {
 }
 
 TEST(Gltf, NormalsTurnByTheInverseTranspose) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     GltfMaker maker;
     maker.attributes()["NORMAL"] =
         maker.accessor(packed<float>({1, 1, 0, 1, 1, 0, 1, 1, 0}), 5126, "VEC3", 3);
@@ -166,7 +166,7 @@ TEST(Gltf, NormalsTurnByTheInverseTranspose) {
 }
 
 TEST(Gltf, AMirroredNodeKeepsItsFrontsInFront) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     for (const bool file_has_normals : {true, false}) {
         GltfMaker maker;
         if (file_has_normals) {
@@ -187,7 +187,7 @@ TEST(Gltf, AMirroredNodeKeepsItsFrontsInFront) {
 }
 
 TEST(Gltf, AFlattenedNodeHasFiniteUnitNormals) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     GltfMaker maker;
     maker.attributes()["NORMAL"] =
         maker.accessor(packed<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}), 5126, "VEC3", 3);
@@ -199,7 +199,7 @@ TEST(Gltf, AFlattenedNodeHasFiniteUnitNormals) {
 }
 
 TEST(Gltf, TangentsAreZeroForPartsThatHaveNone) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     GltfMaker maker;
     maker.json["meshes"][0]["primitives"].push_back(maker.primitive());
     maker.attributes()["NORMAL"] =
@@ -213,7 +213,7 @@ TEST(Gltf, TangentsAreZeroForPartsThatHaveNone) {
 }
 
 TEST(Gltf, TheDefaultSceneIsReadElseTheFirstElseAllRoots) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     GltfMaker maker;
     maker.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}}, {{"mesh", 0}}};
     maker.json["scenes"] = {{{"nodes", {0}}}, {{"nodes", {1, 2}}}};
@@ -226,7 +226,7 @@ TEST(Gltf, TheDefaultSceneIsReadElseTheFirstElseAllRoots) {
 }
 
 TEST(Gltf, MaterialsNameImagesChannelsAndFactors) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     folder.write("maps/colour 1.png", "read later");
     GltfMaker maker;
     const std::size_t view = maker.view("encoded bytes");
@@ -269,7 +269,7 @@ TEST(Gltf, MaterialsNameImagesChannelsAndFactors) {
 }
 
 TEST(Gltf, UnknownExtensionsAndExtrasThatAreNotRequiredAreSkipped) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     GltfMaker maker;
     maker.json["extensionsUsed"] = {"KHR_lights_punctual"};
     maker.json["extensions"] = {{"KHR_lights_punctual", {{"lights", Json::array()}}}};

@@ -52,11 +52,11 @@ const std::vector<std::uint8_t>& bytes(const Image& image) {
 } // namespace
 
 TEST(Image, APngReturnsItsPixelsExactlyForEveryNumberOfChannels) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     for (int channels = 1; channels <= 4; ++channels) {
         const Image image = byteImage(7, 5, channels);
-        saveImage(folder.path / "a.png", image);
-        const Image back = loadImage(folder.path / "a.png");
+        saveImage(folder.path() / "a.png", image);
+        const Image back = loadImage(folder.path() / "a.png");
         EXPECT_EQ(back.width, 7);
         EXPECT_EQ(back.height, 5);
         EXPECT_EQ(back.channels, channels);
@@ -66,15 +66,15 @@ TEST(Image, APngReturnsItsPixelsExactlyForEveryNumberOfChannels) {
 }
 
 TEST(Image, AlphaDoesNotTouchTheColourBesideIt) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     Image image = byteImage(1, 1, 4);
     image.pixels = std::vector<std::uint8_t>{200, 100, 50, 0};
-    saveImage(folder.path / "a.png", image);
-    EXPECT_EQ(bytes(loadImage(folder.path / "a.png")), bytes(image));
+    saveImage(folder.path() / "a.png", image);
+    EXPECT_EQ(bytes(loadImage(folder.path() / "a.png")), bytes(image));
 }
 
 TEST(Image, ASixteenBitPngIsReadAsFloatsOfZeroToOne) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const Image image = loadImage(folder.write("a.png", png(3, 1, 16, 0, "\0\0\0\x33\x33\xff\xff"s)));
     EXPECT_EQ(image.colour_space, ColourSpace::srgb);
     EXPECT_EQ(image.channels, 1);
@@ -82,7 +82,7 @@ TEST(Image, ASixteenBitPngIsReadAsFloatsOfZeroToOne) {
 }
 
 TEST(Image, PalettesAndFewBitsAreExpandedToEight) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const std::string palette = pngChunk("PLTE", "\x0a\x14\x1e\xff\x80\x01");
     const Image coloured = loadImage(folder.write("a.png", png(3, 1, 8, 3, "\0\1\0\1"s, palette)));
     EXPECT_EQ(coloured.channels, 3);
@@ -92,21 +92,21 @@ TEST(Image, PalettesAndFewBitsAreExpandedToEight) {
 }
 
 TEST(Image, AGammaChunkDoesNotChangeThePixels) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const std::string gamma = pngChunk("gAMA", bigEndian32(100000));
     const Image image = loadImage(folder.write("a.png", png(2, 1, 8, 0, "\0\x40\x80"s, gamma)));
     EXPECT_EQ(bytes(image), (std::vector<std::uint8_t>{64, 128}));
 }
 
 TEST(Image, AFullFloatExrReturnsItsPixelsExactlyWithInfinityAndNan) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     Image image = floatImage(9, 4, 3);
     auto& samples = std::get<std::vector<float>>(image.pixels);
     samples[0] = -3.5f;
     samples[1] = std::numeric_limits<float>::infinity();
     samples[2] = std::numeric_limits<float>::quiet_NaN();
-    saveImage(folder.path / "a.exr", image);
-    const Image back = loadImage(folder.path / "a.exr");
+    saveImage(folder.path() / "a.exr", image);
+    const Image back = loadImage(folder.path() / "a.exr");
     EXPECT_EQ(back.colour_space, ColourSpace::linear);
     EXPECT_TRUE(std::isnan(floats(back)[2]));
     for (std::size_t i = 0; i < samples.size(); ++i)
@@ -114,31 +114,31 @@ TEST(Image, AFullFloatExrReturnsItsPixelsExactlyWithInfinityAndNan) {
 }
 
 TEST(Image, AnExrHoldsAnyNumberOfChannels) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     for (int channels = 1; channels <= 4; ++channels) {
         const Image image = floatImage(3, 3, channels);
-        saveImage(folder.path / "a.exr", image);
-        EXPECT_EQ(floats(loadImage(folder.path / "a.exr")), floats(image)) << channels;
+        saveImage(folder.path() / "a.exr", image);
+        EXPECT_EQ(floats(loadImage(folder.path() / "a.exr")), floats(image)) << channels;
     }
 }
 
 TEST(Image, AHalfExrIsWithinAHalfFloatsPrecision) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     Image image = floatImage(4, 4, 3);
     for (float& sample : std::get<std::vector<float>>(image.pixels))
         sample *= 1.2345f;
-    saveImage(folder.path / "a.exr", image, false);
-    const Image back = loadImage(folder.path / "a.exr");
+    saveImage(folder.path() / "a.exr", image, false);
+    const Image back = loadImage(folder.path() / "a.exr");
     for (std::size_t i = 0; i < floats(image).size(); ++i)
         EXPECT_NEAR(floats(back)[i] / floats(image)[i], 1.0f, 0x1p-11f);
 }
 
 TEST(Image, AnHdrKeepsEachPixelsLargestChannelToOneIn256) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     for (const int width : {5, 40}) { // narrower than 8 pixels: flat; wider: run-length encoded
         const Image image = floatImage(width, 6, 3);
-        saveImage(folder.path / "a.hdr", image);
-        const Image back = loadImage(folder.path / "a.hdr");
+        saveImage(folder.path() / "a.hdr", image);
+        const Image back = loadImage(folder.path() / "a.hdr");
         EXPECT_EQ(back.colour_space, ColourSpace::linear);
         ASSERT_EQ(floats(back).size(), floats(image).size());
         for (std::size_t i = 0; i < floats(image).size(); i += 3) {
@@ -150,7 +150,7 @@ TEST(Image, AnHdrKeepsEachPixelsLargestChannelToOneIn256) {
 }
 
 TEST(Image, AFlatHdrByHandHasTheValuesOfItsSharedExponents) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const auto path = folder.write("a.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n"s +
                                                 "\x80\x40\x20\x81"s + "\x80\x80\x80\x8b"s);
     const Image image = loadImage(path);
@@ -160,7 +160,7 @@ TEST(Image, AFlatHdrByHandHasTheValuesOfItsSharedExponents) {
 }
 
 TEST(Image, ARunLengthHdrByHandUnpacksItsRunsAndItsLiterals) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const std::string row = "\x02\x02\x00\x08"s + "\x88\x80"s         // red: a run of eight 128
                             + "\x08\x00\x20\x40\x60\x80\xa0\xc0\xe0"s // green: eight literals
                             + "\x84\x00\x84\x80"s                     // blue: two runs of four
@@ -176,7 +176,7 @@ TEST(Image, ARunLengthHdrByHandUnpacksItsRunsAndItsLiterals) {
 }
 
 TEST(Image, RowZeroIsTheTop) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const auto path = folder.write("a.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 1\n"s +
                                                 "\x80\x80\x80\x81"s + "\x80\x80\x80\x82"s);
     EXPECT_EQ(floats(loadImage(path))[0], 1.0f);
@@ -184,54 +184,54 @@ TEST(Image, RowZeroIsTheTop) {
 }
 
 TEST(Image, TheReaderIsChosenByTheContentAndNotByTheName) {
-    const TestFolder folder;
-    saveImage(folder.path / "a.png", byteImage(3, 3, 3));
-    std::filesystem::rename(folder.path / "a.png", folder.path / "a.exr");
-    EXPECT_EQ(bytes(loadImage(folder.path / "a.exr")), bytes(byteImage(3, 3, 3)));
+    const TemporaryFolder folder;
+    saveImage(folder.path() / "a.png", byteImage(3, 3, 3));
+    std::filesystem::rename(folder.path() / "a.png", folder.path() / "a.exr");
+    EXPECT_EQ(bytes(loadImage(folder.path() / "a.exr")), bytes(byteImage(3, 3, 3)));
 }
 
 TEST(Image, EqualPixelsMakeEqualFiles) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const auto save = [&](const std::string& prefix) {
-        saveImage(folder.path / (prefix + ".png"), byteImage(30, 20, 3));
-        saveImage(folder.path / (prefix + ".exr"), floatImage(30, 20, 3));
-        saveImage(folder.path / (prefix + ".hdr"), floatImage(30, 20, 3));
+        saveImage(folder.path() / (prefix + ".png"), byteImage(30, 20, 3));
+        saveImage(folder.path() / (prefix + ".exr"), floatImage(30, 20, 3));
+        saveImage(folder.path() / (prefix + ".hdr"), floatImage(30, 20, 3));
     };
     save("a");
     ::usleep(1100000); // a time of day in a file has seconds
     save("b");
     for (const char* extension : {".png", ".exr", ".hdr"})
-        EXPECT_EQ(bytesOf(folder.path / ("a"s + extension)), bytesOf(folder.path / ("b"s + extension)))
+        EXPECT_EQ(bytesOf(folder.path() / ("a"s + extension)), bytesOf(folder.path() / ("b"s + extension)))
             << extension;
 }
 
 TEST(Image, SavingReplacesAFileAndLeavesNothingElseBehind) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     folder.write("a.png", "old");
-    saveImage(folder.path / "a.png", byteImage(3, 3, 3));
-    EXPECT_EQ(bytes(loadImage(folder.path / "a.png")), bytes(byteImage(3, 3, 3)));
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path), {}), 1);
+    saveImage(folder.path() / "a.png", byteImage(3, 3, 3));
+    EXPECT_EQ(bytes(loadImage(folder.path() / "a.png")), bytes(byteImage(3, 3, 3)));
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
 TEST(Image, ASaveThatFailsLeavesTheOldFileAndNothingElse) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const auto path = folder.write("a.hdr", "old");
     Image image = floatImage(3, 3, 3);
     std::get<std::vector<float>>(image.pixels)[4] = -1.0f;
     expectError(path, {"negative", ".exr"}, [&] { saveImage(path, image); });
     EXPECT_EQ(bytesOf(path), "old");
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path), {}), 1);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 
-    std::filesystem::create_directory(folder.path / "b.png");
-    expectError(folder.path / "b.png", {"is a folder"},
-                [&] { saveImage(folder.path / "b.png", byteImage(2, 2, 3)); });
-    expectError(folder.path / "no/a.png", {"folder exists"},
-                [&] { saveImage(folder.path / "no/a.png", byteImage(2, 2, 3)); });
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path), {}), 2);
+    std::filesystem::create_directory(folder.path() / "b.png");
+    expectError(folder.path() / "b.png", {"is a folder"},
+                [&] { saveImage(folder.path() / "b.png", byteImage(2, 2, 3)); });
+    expectError(folder.path() / "no/a.png", {"folder exists"},
+                [&] { saveImage(folder.path() / "no/a.png", byteImage(2, 2, 3)); });
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
 }
 
 TEST(Image, ADiskThatFillsUpCostsNeitherTheOldFileNorSpace) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const auto path = folder.write("a.png", "old");
     rlimit before{};
     ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -243,13 +243,13 @@ TEST(Image, ADiskThatFillsUpCostsNeitherTheOldFileNorSpace) {
     ::setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, on_limit);
     EXPECT_EQ(bytesOf(path), "old");
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path), {}), 1);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
 TEST(Image, SavingRefusesPixelsThatTheFormatCannotHold) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const auto refuses = [&](const char* name, const Image& image, std::string_view what) {
-        expectError(folder.path / name, {what}, [&] { saveImage(folder.path / name, image); });
+        expectError(folder.path() / name, {what}, [&] { saveImage(folder.path() / name, image); });
     };
     refuses("a.png", floatImage(2, 2, 3), "8-bit");
     refuses("a.exr", byteImage(2, 2, 3), "float");
@@ -264,18 +264,18 @@ TEST(Image, SavingRefusesPixelsThatTheFormatCannotHold) {
     refuses("a.png", lying, "0x3");
     lying.width = max_image_extent + 1;
     refuses("a.png", lying, "16385x3");
-    EXPECT_TRUE(std::filesystem::is_empty(folder.path));
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(Image, AnImageInMemoryIsReadLikeAFile) {
-    const TestFolder folder;
-    saveImage(folder.path / "a.png", byteImage(3, 2, 3));
+    const TemporaryFolder folder;
+    saveImage(folder.path() / "a.png", byteImage(3, 2, 3));
     ImageSource source;
     source.name = "model.glb: /images/0";
-    source.encoded = std::make_shared<const std::string>(bytesOf(folder.path / "a.png"));
+    source.encoded = std::make_shared<const std::string>(bytesOf(folder.path() / "a.png"));
     EXPECT_EQ(bytes(loadImage(source)), bytes(byteImage(3, 2, 3)));
     ImageSource file;
-    file.file = folder.path / "a.png";
+    file.file = folder.path() / "a.png";
     EXPECT_EQ(bytes(loadImage(file)), bytes(byteImage(3, 2, 3)));
     source.encoded = std::make_shared<const std::string>("not an image");
     expectError("model.glb", {"/images/0", "is no PNG"}, [&] { loadImage(source); });

@@ -33,7 +33,7 @@ std::string image() { return "\x89PNG only named, read later"; }
 } // namespace
 
 TEST(Obj, ATriangleComesOutAsItIsWritten) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const MeshData mesh = loadMesh(folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
                                                          "vt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 2\n"
                                                          "f 1/1/1 2/2/1 3/3/1\n"));
@@ -48,7 +48,7 @@ TEST(Obj, ATriangleComesOutAsItIsWritten) {
 }
 
 TEST(Obj, RelativeIndicesCountBackFromTheLatestVertex) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const MeshData mesh = loadMesh(
         folder.write("a.obj", "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 5 5\nf -4 -3 -2\n"));
     EXPECT_EQ(mesh.indices, (std::vector<std::uint32_t>{0, 1, 2, 0, 1, 2}));
@@ -56,7 +56,7 @@ TEST(Obj, RelativeIndicesCountBackFromTheLatestVertex) {
 }
 
 TEST(Obj, LinesMayEndInCrlfOrCrAndHaveCommentsBlanksAndUnknownKeywords) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     for (const std::string end : {"\n", "\r\n", "\r"}) {
         std::string text;
         for (const char* line : {"# a comment", "", "  v 0 0 0 1.0", "v\t1 +0 0 0.5 0.5 0.5", "v 0 1e0 0  ",
@@ -68,7 +68,7 @@ TEST(Obj, LinesMayEndInCrlfOrCrAndHaveCommentsBlanksAndUnknownKeywords) {
 }
 
 TEST(Obj, AQuadIsCutAlongItsShorterDiagonal) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const MeshData mesh = loadMesh(folder.write("a.obj", "v 0 0 0\nv 3 1 0\nv 0 2 0\nv -3 1 0\nf 1 2 3 4\n"));
     EXPECT_EQ(mesh.indices.size(), 6u);
     EXPECT_FLOAT_EQ(doubleArea(mesh), 12.0f);
@@ -80,7 +80,7 @@ TEST(Obj, AQuadIsCutAlongItsShorterDiagonal) {
 }
 
 TEST(Obj, ConcavePolygonsKeepTheirAreaWhereverTheyLieAndHoweverSmall) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     // An L of area 3 with seven corners, one of them on a straight edge; an arrow head of area 1; and two
     // long arms of area 44.5, whose shortest cut would run past the notch at (0.5, 0.5).
     const std::vector<std::pair<std::vector<glm::vec2>, float>> shapes = {
@@ -113,7 +113,7 @@ TEST(Obj, ConcavePolygonsKeepTheirAreaWhereverTheyLieAndHoweverSmall) {
 }
 
 TEST(Obj, APolygonOf255CornersIsRead) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     std::string text;
     std::string face = "f";
     for (int i = 0; i < 255; ++i) {
@@ -126,7 +126,7 @@ TEST(Obj, APolygonOf255CornersIsRead) {
 }
 
 TEST(Obj, MissingNormalsAreSmoothAndDoNotDependOnTheDiagonals) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     // The corner of a box with sides 3, 2, 1: three right angles, so the mean normal is (1,1,1)/sqrt(3),
     // however large the faces and whichever way they are cut.
     for (const char* faces : {"f 1 2 3 4\nf 1 4 5 6\nf 1 6 7 2\n", "f 2 3 4 1\nf 4 5 6 1\nf 6 7 2 1\n",
@@ -144,21 +144,21 @@ TEST(Obj, MissingNormalsAreSmoothAndDoNotDependOnTheDiagonals) {
 }
 
 TEST(Obj, AZeroNormalInTheFileIsReplacedByTheFacesOwn) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const MeshData mesh =
         loadMesh(folder.write("a.obj", std::string(square) + "vn 0 0 0\nf 1//1 2//1 3//1\n"));
     EXPECT_EQ(mesh.normals, std::vector<glm::vec3>(3, glm::vec3(0, 0, 1)));
 }
 
 TEST(Obj, FacesWithoutAreaStillHaveUnitNormals) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const MeshData mesh = loadMesh(folder.write("a.obj", "v 1 1 1\nf 1 1 1\n"));
     for (const glm::vec3& normal : mesh.normals)
         EXPECT_EQ(glm::length(normal), 1.0f);
 }
 
 TEST(Obj, CornersThatAgreeInAllIndicesShareAVertex) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const MeshData mesh = loadMesh(folder.write("a.obj", std::string(square) + "f 1 2 3\nf 1 3 4\n"));
     EXPECT_EQ(mesh.positions.size(), 4u);
     const MeshData seam = loadMesh(
@@ -168,7 +168,7 @@ TEST(Obj, CornersThatAgreeInAllIndicesShareAVertex) {
 }
 
 TEST(Obj, EachMaterialIsOnePart) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     folder.write("one.mtl", "newmtl red\nKd 1 0 0\nnewmtl not used\n");
     folder.write("two.mtl", "newmtl deep blue\nKd 0 0 1\n");
     const MeshData mesh = loadMesh(folder.write(
@@ -183,7 +183,7 @@ TEST(Obj, EachMaterialIsOnePart) {
 }
 
 TEST(Obj, ALibraryNameMayHaveBlanks) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     folder.write("my own.mtl", "newmtl a\n");
     EXPECT_EQ(
         loadMesh(folder.write("a.obj", std::string("mtllib my own.mtl\n") + square + "usemtl a\nf 1 2 3\n"))
@@ -193,7 +193,7 @@ TEST(Obj, ALibraryNameMayHaveBlanks) {
 }
 
 TEST(Mtl, NamesImagesChannelsAndFactors) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     for (const char* name : {"colour.jpg", "maps/packed one.jpg", "normal.png", "other.png"})
         folder.write(name, image());
     const auto path =
@@ -219,7 +219,7 @@ TEST(Mtl, NamesImagesChannelsAndFactors) {
 }
 
 TEST(Mtl, WithoutMapsASurfaceIsRoughAndNoMetal) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     const MaterialData plain = loadMtl(folder.write("a.mtl", "newmtl a\nKd 0.5\n")).at(0);
     EXPECT_EQ(plain.base_colour, glm::vec4(0.5f, 0.5f, 0.5f, 1.0f));
     EXPECT_EQ(plain.roughness, 1.0f);
@@ -228,7 +228,7 @@ TEST(Mtl, WithoutMapsASurfaceIsRoughAndNoMetal) {
 }
 
 TEST(Mtl, MapBumpServesAsTheNormalMapWhereThereIsNoNorm) {
-    const TestFolder folder;
+    const TemporaryFolder folder;
     folder.write("n.png", image());
     EXPECT_EQ(loadMtl(folder.write("a.mtl", "newmtl a\nmap_Bump n.png\n")).at(0).normal_image.file.filename(),
               "n.png");

@@ -1,6 +1,8 @@
-// Files for tests of common/io: a folder that vanishes, files written into it, and the shape every error must
-// have. Nothing is read from the source tree, so each test shows all of its input.
+// For tests of common/io: what files hold, and the shape every error must have. Nothing is read from the
+// source tree, so each test shows all of its input.
 #pragma once
+
+#include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,35 +14,7 @@
 #include <string>
 #include <string_view>
 
-#include <unistd.h>
-
 namespace gll::test {
-
-// A fresh folder, removed with all it holds at the end of the test.
-class TestFolder {
-  public:
-    TestFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "gll_io_XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": cannot be made");
-        path = name;
-    }
-    ~TestFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path, ignored);
-    }
-    TestFolder(const TestFolder&) = delete;
-    TestFolder& operator=(const TestFolder&) = delete;
-
-    // Writes a file, with the folders on its way, and returns its path.
-    std::filesystem::path write(const std::string& name, std::string_view bytes) const {
-        const std::filesystem::path file = path / name;
-        std::filesystem::create_directories(file.parent_path());
-        std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-        return file;
-    }
-
-    std::filesystem::path path;
-};
 
 inline std::string bytesOf(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
