@@ -205,11 +205,11 @@ int runHeadless(const Options& options, const RungInfo& info, Settings& settings
 int listSettings(const Options& options, const RungInfo& info, Settings& settings) {
     std::vector<std::string> targets;
     std::vector<std::string> passes;
-    std::string renderer;
+    std::string drawn_by;
     std::string reason;
     try {
         const auto context = makeHeadlessContext(ContextKind::headless);
-        renderer = context->info().renderer + ", " + context->info().version;
+        drawn_by = context->info().renderer + ", " + context->info().version;
         Renderer small(*context, info, options.files);
         const auto& drawn = small.render(1, {64, 64});
         targets = targetNames(drawn);
@@ -227,7 +227,7 @@ int listSettings(const Options& options, const RungInfo& info, Settings& setting
                 {{"name", preset.name}, {"help", preset.help}, {"values", preset.values}});
         json["targets"] = targets;
         json["passes"] = passes;
-        if (reason.empty()) json["renderer"] = renderer;
+        if (reason.empty()) json["renderer"] = drawn_by;
         if (!reason.empty()) json["targets_unknown"] = reason;
         std::printf("%s\n", json.dump(2).c_str());
         return 0;
