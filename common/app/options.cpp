@@ -80,10 +80,13 @@ void checkSettings(const FrameRequest& request, const Settings& settings) {
     tried.reset();
 }
 
-std::string scalarText(const nlohmann::json& value) {
+// A value as the command line would spell it. Lists and objects have no such spelling, and are not printed
+// either: nested deep enough, printing them takes all of the stack.
+std::string scalarText(const std::string& key, const nlohmann::json& value) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_boolean()) return value.get<bool>() ? "on" : "off";
-    return value.dump();
+    if (value.is_number()) return value.dump();
+    throw UsageError("\"" + key + "\" wants a text, a number, true or false");
 }
 
 FrameRequest parseBatchLine(const std::string& line, FrameRequest request) {
@@ -91,25 +94,26 @@ FrameRequest parseBatchLine(const std::string& line, FrameRequest request) {
     if (!json.is_object()) throw UsageError("not a JSON object on one line");
     for (const auto& [key, value] : json.items()) {
         if (key == "size") {
-            request.size = parseSize(scalarText(value));
+            request.size = parseSize(scalarText(key, value));
         } else if (key == "frame") {
-            request.first_frame = request.last_frame = parseInteger(scalarText(value), 1, max_frame, "frame");
+            request.first_frame = request.last_frame =
+                parseInteger(scalarText(key, value), 1, max_frame, "frame");
         } else if (key == "frames") {
-            parseFrames(scalarText(value), request);
+            parseFrames(scalarText(key, value), request);
         } else if (key == "preset") {
-            request.preset = scalarText(value);
+            request.preset = scalarText(key, value);
         } else if (key == "out") {
-            request.out = scalarText(value);
+            request.out = scalarText(key, value);
         } else if (key == "target") {
-            request.target = scalarText(value);
+            request.target = scalarText(key, value);
         } else if (key == "cost" && value.is_boolean()) {
             request.cost = value.get<bool>();
         } else if (key == "set" && value.is_object()) {
             for (const auto& [name, setting] : value.items())
-                request.sets.push_back(name + "=" + scalarText(setting));
+                request.sets.push_back(name + "=" + scalarText(name, setting));
         } else if (key == "set" && value.is_array()) {
             for (const auto& setting : value)
-                request.sets.push_back(scalarText(setting));
+                request.sets.push_back(scalarText(key, setting));
         } else {
             throw UsageError("\"" + key +
                              "\" with this value is no key of a batch line; there is size, frame, "
