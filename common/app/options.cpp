@@ -66,18 +66,17 @@ void checkRequest(const FrameRequest& request) {
                          ": several frames need a %d in the name, such as frame_%04d.png");
 }
 
-void checkSettings(const FrameRequest& request, const Settings& settings) {
-    // Tried on the declarations' own storage, which is reset again: a copy would leave handles behind.
-    auto& tried = const_cast<Settings&>(settings);
+// Tries the request's settings, and leaves them at their defaults.
+void checkSettings(const FrameRequest& request, Settings& settings) {
     try {
-        tried.applyPreset(request.preset);
+        settings.applyPreset(request.preset);
         for (const std::string& set : request.sets)
-            tried.set(set);
+            settings.set(set);
     } catch (...) {
-        tried.reset();
+        settings.reset();
         throw;
     }
-    tried.reset();
+    settings.reset();
 }
 
 // A value as the command line would spell it. Lists and objects have no such spelling, and are not printed
@@ -126,8 +125,7 @@ FrameRequest parseBatchLine(const std::string& line, FrameRequest request) {
     return request;
 }
 
-std::vector<FrameRequest> readBatch(const std::string& file, const FrameRequest& base,
-                                    const Settings& settings) {
+std::vector<FrameRequest> readBatch(const std::string& file, const FrameRequest& base, Settings& settings) {
     std::error_code error;
     if (std::filesystem::is_directory(file, error)) throw std::runtime_error(file + ": is a folder");
     std::ifstream stream(file);
@@ -186,7 +184,7 @@ std::filesystem::path FrameRequest::outFor(int frame) const {
     return name;
 }
 
-std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info, const Settings& settings) {
+std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info, Settings& settings) {
     CLI::App app(info.summary, info.name);
     app.set_version_flag("--version", info.name + " " GLLADDER_VERSION " (GL Ladder)");
     app.get_formatter()->column_width(28);

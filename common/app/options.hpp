@@ -48,8 +48,9 @@ struct Options {
 
 // Parses a command line. Returns nothing where --help or --version was asked for and printed. Throws
 // UsageError for what is wrong with the command line or the batch file ("FILE:line: what"),
-// std::runtime_error where the batch file cannot be read.
-std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info, const Settings& settings);
+// std::runtime_error where the batch file cannot be read. Leaves the settings at their defaults: the requests
+// say what to set.
+std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info, Settings& settings);
 
 // A size such as "640x480": both sides 1 to 16384, at most 64 Mi pixels. Throws UsageError.
 glm::ivec2 parseSize(const std::string& text);
