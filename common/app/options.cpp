@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #ifndef GLLADDER_VERSION
 #error "the build defines GLLADDER_VERSION"
@@ -18,6 +19,7 @@ namespace gll {
 namespace {
 
 constexpr int max_extent_px = 16384;
+constexpr std::size_t max_batch_bytes = std::size_t(64) << 20;
 constexpr std::int64_t max_pixels = std::int64_t(64) << 20;
 
 int parseInteger(std::string_view text, int min, int max, const std::string& what) {
@@ -125,11 +127,25 @@ FrameRequest parseBatchLine(const std::string& line, FrameRequest request) {
     return request;
 }
 
+// All of a file, or of a pipe; a device that never ends is refused at the limit.
+std::string readBounded(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream) throw std::runtime_error(file + ": cannot be opened; --batch wants a file of JSON lines");
+    std::string text;
+    std::vector<char> block(std::size_t(1) << 16);
+    while (stream) {
+        stream.read(block.data(), static_cast<std::streamsize>(block.size()));
+        text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+        if (text.size() > max_batch_bytes)
+            throw std::runtime_error(file + ": larger than 64 MiB; split it into several batches");
+    }
+    return text;
+}
+
 std::vector<FrameRequest> readBatch(const std::string& file, const FrameRequest& base, Settings& settings) {
     std::error_code error;
     if (std::filesystem::is_directory(file, error)) throw std::runtime_error(file + ": is a folder");
-    std::ifstream stream(file);
-    if (!stream) throw std::runtime_error(file + ": cannot be opened; --batch wants a file of JSON lines");
+    std::istringstream stream(readBounded(file));
     std::vector<FrameRequest> requests;
     std::string line;
     for (int number = 1; std::getline(stream, line); ++number) {

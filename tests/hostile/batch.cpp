@@ -69,6 +69,10 @@ TEST(BatchFile, thatIsAFolderIsNamed) {
                   {folder.path().string(), "folder"});
 }
 
+TEST(BatchFile, thatNeverEndsIsRefused) {
+    checkRefusal({"", {"--batch", "/dev/zero"}, 1, {"/dev/zero", "64 MiB"}});
+}
+
 TEST(BatchFile, thatIsEmptyIsRefused) {
     const TemporaryFolder folder;
     const auto file = folder.write("batch.jsonl", "\n \n");
