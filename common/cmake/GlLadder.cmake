@@ -7,5 +7,6 @@ target_compile_options(gll_warnings INTERFACE
 # add_rung(NN_name SOURCE...): the executable of one rung, from files beside the caller's CMakeLists.txt.
 function(add_rung name)
     add_executable(${name} ${ARGN})
+    target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/tutorials) # a lower rung's technique: "01_hdr/..."
     target_link_libraries(${name} PRIVATE gll_run gll_warnings)
 endfunction()

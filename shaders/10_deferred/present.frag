@@ -4,6 +4,7 @@
 #include "lib/encode.glsl"
 
 uniform sampler2D lit_map; // linear; alpha 0: background
+uniform float exposure;    // factor on scene light
 
 in vec2 uv;
 out vec4 display_color; // encoded, [0, 1]
@@ -13,7 +14,7 @@ void main() {
     const vec3 background_bottom = vec3(0.10, 0.10, 0.16); // encoded
     const vec3 background_top = vec3(0.34, 0.24, 0.26);
     vec4 lit = textureLod(lit_map, uv, 0.0);
-    vec3 color = lit.a > 0.0 ? encode(toneMap(lit.rgb)) : mix(background_bottom, background_top, uv.y);
+    vec3 color = lit.a > 0.0 ? encode(toneMap(lit.rgb * exposure)) : mix(background_bottom, background_top, uv.y);
     display_color = vec4(color, 1.0);
 }
 // end excerpt

@@ -1,5 +1,6 @@
 // 05_hdr_bloom's passes, as its command line writes them, against the same passes computed in double from the
 // floats each of them read: bright pass, every filter down and up, the whole chain, and the presented frame.
+#include "01_hdr/tone_map.hpp"
 #include "io/image.hpp"
 #include "support/temporary_folder.hpp"
 #include "tone_reference.hpp"

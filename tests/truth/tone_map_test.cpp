@@ -1,5 +1,6 @@
 // Every tone map and encoding of the shaders over five decades of light, against double; and what no light
 // should be: infinite, negative, not a number.
+#include "01_hdr/tone_map.hpp"
 #include "app/capture.hpp"
 #include "app/context.hpp"
 #include "app/resources.hpp"
@@ -44,9 +45,12 @@ class ToneMapTest : public testing::Test {
             values.insert(values.end(), {color.r, color.g, color.b});
         const Texture input({.size = size, .format = Format::rgba32f, .filter = Filter::nearest}, values);
         const Framebuffer target({{"out", Format::rgba32f}}, size);
+        const Program& program =
+            shaders.fullScreen("tone_map.frag", tone.defines() + encode.defines() + encoded);
         drawPass("tone map", target,
-                 {.program = shaders.fullScreen("tone_map.frag", tone.defines() + encode.defines() + encoded),
-                  .inputs = {{"scene_color", input}}},
+                 {.program = program,
+                  .inputs = {{"scene_color", input}},
+                  .uniforms = usedBy(program, {{"white_point", 4.0F}})},
                  triangle);
         const Image image = readTexture(target.color());
         const auto& pixels = std::get<std::vector<float>>(image.pixels);
@@ -85,9 +89,10 @@ std::vector<glm::vec3> colors() {
 }
 
 TEST_F(ToneMapTest, everyCurveIsItsFormula) {
-    // Display values; a code of 8 bits is 3.9e-3. Measured on llvmpipe: below 5e-7.
-    constexpr double bound = 2e-6;
-    for (const std::string name : tone_maps)
+    // Display values; a code of 8 bits is 3.9e-3. Measured on llvmpipe: below 5e-7. AgX's polynomial has
+    // terms of up to 40 that cancel to 1 (measured: 5.4e-6).
+    for (const std::string name : tone_maps) {
+        const double bound = name == "agx" ? 1e-5 : 2e-6;
         for (const auto& input : {greyRamp(), colors()}) {
             const auto output = run(input, name);
             double largest = 0;
@@ -103,6 +108,7 @@ TEST_F(ToneMapTest, everyCurveIsItsFormula) {
             std::printf("%-16s %-7s largest error %.2g\n", name.c_str(),
                         input[0] == glm::vec3(0) ? "greys" : "colours", largest);
         }
+    }
 }
 
 TEST_F(ToneMapTest, everyEncodingIsItsFormulaBehindEveryCurve) {
@@ -131,7 +137,7 @@ TEST_F(ToneMapTest, moreLightIsNeverDarkerAndDisplayLightStaysInRange) {
         for (const std::string encoding : {"", "gamma22", "srgb"}) {
             const auto output = run(greyRamp(), name, encoding);
             // Where encoded, the slope of the curve near black magnifies what rounding there is.
-            const float allowed = encoding.empty() ? rounding : 1e-4F;
+            const float allowed = !encoding.empty() ? 1e-4F : name == "agx" ? 1e-5F : rounding;
             for (std::size_t i = 0; i < output.size(); ++i) {
                 for (int c = 0; c < 3; ++c) {
                     ASSERT_GE(output[i][c], 0.0F) << name << " " << encoding << " step " << i;

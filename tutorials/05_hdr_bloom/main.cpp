@@ -1,6 +1,7 @@
 // 05_hdr_bloom: a thousand cubes drawn into a floating-point target, every ninth of them far brighter than
 // white; what is too bright is blurred down and up a pyramid, added back as bloom, and the sum is tone
 // mapped.
+#include "01_hdr/tone_map.hpp"
 #include "app/camera.hpp"
 #include "run/run.hpp"
 #include "swarm.hpp"
@@ -31,12 +32,7 @@ struct HdrBloomOptions {
         all.choice("down_filter", "5tap", {"5tap", "13tap", "4tap", "box"}, "how levels are halved");
     Choice up_filter =
         all.choice("up_filter", "tent", {"tent", "4tap", "bilinear"}, "how levels are doubled");
-    Number exposure = all.number("exposure_ev", 0, -16, 16, "exposure before tone mapping, stops");
-    Choice tone_map =
-        all.choice("tone_map", "aces_narkowicz",
-                   {"clamp", "reinhard", "exposure", "aces_narkowicz", "aces_hill", "pbr_neutral"},
-                   "from scene light to display light");
-    Choice encode = all.choice("encode", "gamma22", {"gamma22", "srgb"}, "transfer function for the display");
+    ToneMapOptions display{all, "aces_narkowicz", "gamma22"};
     Integer instances = all.integer("instances", 1000, 1, 1'000'000, "number of cubes");
     Number boost = all.number("boost", 8, 0, 1000, "how many times brighter a glowing cube is");
     Integer glow_every =
@@ -116,18 +112,16 @@ class HdrBloom final : public Rung {
 
     // excerpt: composite
     void composite(Frame& frame) {
-        Defines defines = options_.tone_map.defines() + options_.encode.defines();
-        defines.push_back({"BLOOM", options_.bloom ? "1" : "0"});
+        const Program& program = shaders_.fullScreen(
+            "lib/present.frag", options_.display.defines() + Defines{{"BLOOM", options_.bloom ? "1" : "0"}});
+        std::vector<UniformSetting> uniforms = options_.display.uniforms();
         std::vector<Input> inputs = {{"hdr", hdr_.color()}};
-        std::vector<UniformSetting> uniforms = {{"exposure", std::exp2(options_.exposure)}};
         if (options_.bloom) {
             inputs.push_back({"bloom", level(0).color()});
             uniforms.push_back({"intensity", options_.intensity});
         }
         frame.pass("composite", frame.presented(),
-                   {.program = shaders_.fullScreen("05_hdr_bloom/composite.frag", defines),
-                    .inputs = inputs,
-                    .uniforms = uniforms});
+                   {.program = program, .inputs = inputs, .uniforms = usedBy(program, uniforms)});
     }
     // end excerpt
 

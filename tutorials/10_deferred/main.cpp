@@ -1,5 +1,6 @@
 // 10_deferred: a cat statue on a brick floor, its materials written once into a G-buffer and lit afterwards:
 // a shadow-casting sun, three coloured lights going round, an environment, and ambient occlusion.
+#include "01_hdr/tone_map.hpp"
 #include "app/camera.hpp"
 #include "environment.hpp"
 #include "run/run.hpp"
@@ -46,10 +47,7 @@ struct DeferredOptions {
     Choice environment_specular =
         all.choice("environment_specular", "raw", {"raw", "prefiltered"},
                    "reflections: one fetch, or mip levels filtered for the surface's roughness");
-    Choice tone_map = all.choice(
-        "tone_map", "clamp", {"clamp", "reinhard", "exposure", "aces_narkowicz", "aces_hill", "pbr_neutral"},
-        "from scene light to display light; clamp is none");
-    Choice encode = all.choice("encode", "gamma22", {"gamma22", "srgb"}, "transfer function for the display");
+    ToneMapOptions display{all, "clamp", "gamma22"};
     Choice view =
         all.choice("view", "lit", {"lit", "albedo", "normal", "position", "depth", "ssao", "shadow"},
                    "the picture, or one buffer full screen");
@@ -297,16 +295,17 @@ class Deferred final : public Rung {
     // excerpt: present
     void present(Frame& frame) {
         if (options_.view == "lit") {
-            frame.pass(
-                "present", frame.presented(),
-                {.program = shaders_.fullScreen("10_deferred/present.frag",
-                                                options_.tone_map.defines() + options_.encode.defines()),
-                 .inputs = {{"lit_map", lit_.color()}}});
+            const Program& program =
+                shaders_.fullScreen("10_deferred/present.frag", options_.display.defines());
+            frame.pass("present", frame.presented(),
+                       {.program = program,
+                        .inputs = {{"lit_map", lit_.color()}},
+                        .uniforms = usedBy(program, options_.display.uniforms())});
             return;
         }
-        const Program& program = shaders_.fullScreen("10_deferred/view.frag",
-                                                     options_.view.defines() + options_.gbuffer.defines() +
-                                                         options_.ssao.defines() + options_.encode.defines());
+        const Program& program = shaders_.fullScreen(
+            "10_deferred/view.frag", options_.view.defines() + options_.gbuffer.defines() +
+                                         options_.ssao.defines() + options_.display.encode.defines());
         std::vector<Input> inputs = gbufferInputs();
         inputs.push_back({"ssao_map", occlusion().color()});
         inputs.push_back({"shadow_map", shadow_.depth()});

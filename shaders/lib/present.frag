@@ -1,5 +1,5 @@
 #version 330 core
-// Adds the bloom to the scene while both are still linear light, then tone maps and encodes the sum for a display.
+// The last pass of most rungs: scene light, with bloom added where there is some, exposed, tone mapped, encoded.
 #include "lib/tone_map.glsl"
 #include "lib/encode.glsl"
 
@@ -8,13 +8,13 @@ in vec2 uv;
 uniform sampler2D hdr;
 uniform float exposure; // factor on scene light
 #if BLOOM
-uniform sampler2D bloom;
+uniform sampler2D bloom; // of any size
 uniform float intensity; // factor on the bloom
 #endif
 
 out vec4 display_color; // encoded, [0, 1]
 
-// excerpt: composite
+// excerpt: present
 void main() {
     vec3 linear_color = texelFetch(hdr, ivec2(gl_FragCoord.xy), 0).rgb;
 #if BLOOM

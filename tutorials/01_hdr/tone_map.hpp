@@ -1,0 +1,42 @@
+// Tone mapping and the display's encoding as settings, for every rung whose last pass includes
+// lib/tone_map.glsl and lib/encode.glsl.
+#pragma once
+
+#include "app/settings.hpp"
+#include "gl/pass.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace gll {
+
+inline constexpr std::array tone_maps = {
+    "clamp",    "reinhard",       "reinhard_luminance", "reinhard_extended",
+    "exposure", "aces_narkowicz", "aces_hill",          "pbr_neutral",
+    "agx"};
+
+struct ToneMapOptions {
+    // Declares the settings with a rung's own defaults.
+    ToneMapOptions(Settings& settings, std::string_view default_tone_map, std::string_view default_encode)
+        : exposure_ev(settings.number("exposure_ev", 0, -16, 16, "exposure before tone mapping, stops")),
+          tone_map(settings.choice("tone_map", default_tone_map, {tone_maps.begin(), tone_maps.end()},
+                                   "from scene light to display light")),
+          white_point(settings.number("white_point", 4, 0.01, 65504,
+                                      "luminance that becomes white; for reinhard_extended")),
+          encode(settings.choice("encode", default_encode, {"gamma22", "srgb"},
+                                 "transfer function for the display")) {}
+
+    // Of the shader variant.
+    Defines defines() const { return tone_map.defines() + encode.defines(); }
+    // What any variant may need; usedBy() leaves what this one does.
+    std::vector<UniformSetting> uniforms() const {
+        return {{"exposure", std::exp2(exposure_ev)}, {"white_point", white_point}};
+    }
+
+    Number exposure_ev;
+    Choice tone_map;
+    Number white_point;
+    Choice encode;
+};
+
+} // namespace gll
