@@ -19,7 +19,7 @@ constexpr double threshold = 1.0; // the rung's defaults
 constexpr double knee = 0.6;
 constexpr double intensity = 0.7;
 constexpr int levels = 5;
-constexpr const char* karis_kinds[] = {"seed", "texel", "none"};
+constexpr const char* karis_kinds[] = {"average", "texel", "none"};
 constexpr const char* down_filters[] = {"5tap", "13tap", "4tap", "box"};
 constexpr const char* up_filters[] = {"tent", "4tap", "bilinear"};
 constexpr const char* sizes[] = {"640x480", "101x77", "7x3"}; // even down to the last level, odd, tiny
@@ -77,7 +77,7 @@ Plane bright(const Plane& hdr, int width, int height, const std::string& karis, 
         if (karis != "texel") {
             const glm::dvec3 mean = hdr.sample(x, y);
             const double luma = luminance(mean);
-            return mean * brightCurve(luma, at, half_width) / (karis == "seed" ? 1 + luma : 1);
+            return mean * brightCurve(luma, at, half_width) / (karis == "average" ? 1 + luma : 1);
         }
         const int i = static_cast<int>(std::floor(x - 0.5));
         const int j = static_cast<int>(std::floor(y - 0.5));
@@ -320,7 +320,7 @@ TEST_F(BloomTruth, everyDownFilterIsItsWeights) {
         for (const std::string filter : down_filters)
             for (int i = 1; i < levels; ++i) {
                 const std::string source =
-                    i == 1 ? " bright seed" : " down" + std::to_string(i - 1) + " " + filter;
+                    i == 1 ? " bright average" : " down" + std::to_string(i - 1) + " " + filter;
                 const std::string name = size + " down" + std::to_string(i) + " " + filter;
                 const Plane actual = read(name);
                 const Error error =
@@ -338,7 +338,7 @@ TEST_F(BloomTruth, everyUpFilterIsItsWeightsAddedToWhatWasThere) {
                 const Plane below =
                     read(i == levels - 2 ? size + " down" + std::to_string(levels - 1) + " 5tap"
                                          : size + " up" + std::to_string(i + 1) + " " + filter);
-                const Plane before = read(i == 0 ? size + " bright seed" : size + " down" + number + " 5tap");
+                const Plane before = read(i == 0 ? size + " bright average" : size + " down" + number + " 5tap");
                 const std::string name = size + " up" + number + " " + filter;
                 const Plane actual = read(name);
                 const Plane lifted = filtered(below, actual.width, actual.height, upName(filter));
@@ -352,7 +352,7 @@ TEST_F(BloomTruth, everyUpFilterIsItsWeightsAddedToWhatWasThere) {
 TEST_F(BloomTruth, theWholeChainIsTheDoubleChainButForItsRoundings) {
     for (const std::string size : sizes) {
         const Plane actual = read(size + " bloom0");
-        Plane level = bright(read(size + " hdr"), actual.width, actual.height, "seed");
+        Plane level = bright(read(size + " hdr"), actual.width, actual.height, "average");
         std::vector<Plane> pyramid = {level};
         for (int i = 1; i < levels; ++i) {
             const Plane like = read(size + " down" + std::to_string(i) + " 5tap");
