@@ -13,6 +13,8 @@ GLint wrapMode(Wrap wrap) {
     switch (wrap) {
     case Wrap::repeat:
         return GL_REPEAT;
+    case Wrap::mirrored_repeat:
+        return GL_MIRRORED_REPEAT;
     case Wrap::border_one:
         return GL_CLAMP_TO_BORDER;
     case Wrap::clamp_to_edge:

@@ -10,8 +10,13 @@
 
 namespace gll {
 
-enum class Filter { nearest, linear, trilinear };      // trilinear: linear within and between mip levels
-enum class Wrap { clamp_to_edge, repeat, border_one }; // border_one: outside reads 1 (for depth: "farthest")
+enum class Filter { nearest, linear, trilinear }; // trilinear: linear within and between mip levels
+enum class Wrap {
+    clamp_to_edge,
+    repeat,
+    mirrored_repeat,
+    border_one
+}; // border_one: outside reads 1 (for depth: "farthest")
 
 struct TextureDescription {
     glm::ivec2 size{1, 1}; // texels, both at least 1

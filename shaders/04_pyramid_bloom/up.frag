@@ -8,7 +8,29 @@ uniform sampler2D source;
 out vec4 color;
 
 // excerpt: up
-#if UP_FILTER == UP_FILTER_TENT
+#if UP_FILTER == UP_FILTER_SPLINE
+// The cubic B-spline through the source's texels: smooth, nearly round, and each texel gives the same light to however
+// many pixels. Its four weights a direction in two bilinear fetches (Sigg, Hadwiger 2005, "Fast Third-Order Texture
+// Filtering").
+vec3 up() {
+    vec2 size = vec2(textureSize(source, 0));
+    vec2 texel = uv * size - 0.5;
+    vec2 f = fract(texel);
+    vec2 g = 1.0 - f;
+    vec2 w0 = g * g * g / 6.0;
+    vec2 w3 = f * f * f / 6.0;
+    vec2 w1 = 2.0 / 3.0 - f * f + 3.0 * w3;
+    vec2 first_weight = w0 + w1;
+    vec2 last_weight = 1.0 - first_weight;
+    vec2 middle = texel - f + 0.5; // the centre of the texel before the pixel
+    vec2 first = (middle - 1.0 + w1 / first_weight) / size;
+    vec2 last = (middle + 1.0 + w3 / last_weight) / size;
+    return first_weight.y * (first_weight.x * texture(source, first).rgb +
+                             last_weight.x * texture(source, vec2(last.x, first.y)).rgb) +
+           last_weight.y * (first_weight.x * texture(source, vec2(first.x, last.y)).rgb +
+                            last_weight.x * texture(source, last).rgb);
+}
+#elif UP_FILTER == UP_FILTER_TENT
 // [1 2 1] / 4 in either direction over bilinear fetches: nine of them as usually written. Together they weigh four
 // texels a direction, by how far (f) the pixel lies between the middle two:
 //     (1 - f) / 4,  (2 - f) / 4,  (1 + f) / 4,  f / 4

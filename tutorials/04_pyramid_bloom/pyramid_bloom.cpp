@@ -11,18 +11,27 @@ namespace {
 // A Gaussian over nine taps; with both sides the weights add up to 1.
 constexpr std::array gaussian = {0.2270270270F, 0.1945945946F, 0.1216216216F, 0.0540540541F, 0.0162162162F};
 
-// Level i is the source halved i + 1 times, rounded down, at least one pixel a side.
+// Below this, a bilinear fetch of level 0 at an odd size gives one texel up to 1 % more light than the next.
+constexpr int small_extent_px = 64;
+
+// Level i is the source halved i + 1 times, at least one pixel a side: rounded down, or up where the edges
+// are mirrored, so that no texel of the larger is left over.
 void resizeChain(std::vector<Framebuffer>& chain, const std::string& name, int count, Format format,
-                 glm::ivec2 source_size) {
-    if (!chain.empty() && chain.front().color().format() != format) chain.clear();
+                 Wrap wrap, glm::ivec2 source_size) {
+    if (!chain.empty() &&
+        (chain.front().color().format() != format || chain.front().attachments()[0].wrap != wrap))
+        chain.clear();
+    const int rounding = wrap == Wrap::mirrored_repeat ? 1 : 0;
     while (std::ssize(chain) > count)
         chain.pop_back();
     for (int i = 0; i < count; ++i) {
-        const auto size = glm::max(glm::ivec2(source_size.x >> (i + 1), source_size.y >> (i + 1)), 1);
+        source_size = glm::max((source_size + rounding) / 2, 1);
+        const glm::ivec2 size = source_size;
         if (i < std::ssize(chain))
             chain[static_cast<std::size_t>(i)].resize(size);
         else
-            chain.push_back(Framebuffer({{.name = name + std::to_string(i), .format = format}}, size));
+            chain.push_back(
+                Framebuffer({{.name = name + std::to_string(i), .format = format, .wrap = wrap}}, size));
     }
 }
 
@@ -60,33 +69,80 @@ void PyramidBloom::allocate(glm::ivec2 source_size, const PyramidBloomParameters
     if (parameters.levels < 1 || parameters.levels > max_bloom_levels)
         throw std::invalid_argument("bloom: " + std::to_string(parameters.levels) + " levels; 1 to " +
                                     std::to_string(max_bloom_levels) + " are possible");
-    resizeChain(levels_, "bloom", parameters.levels, parameters.format, source_size);
-    resizeChain(blurred_, "blur", parameters.blur_radius > 0 ? parameters.levels : 0, parameters.format,
+    const Wrap wrap = usesSplines(parameters) ? Wrap::mirrored_repeat : Wrap::clamp_to_edge;
+    resizeChain(levels_, "bloom", parameters.levels, parameters.format, wrap, source_size);
+    resizeChain(blurred_, "blur", parameters.blur_radius > 0 ? parameters.levels : 0, parameters.format, wrap,
                 source_size);
+    if (!usesSplines(parameters) || std::min(source_size.x, source_size.y) >= small_extent_px) {
+        full_.clear();
+        return;
+    }
+    if (full_.empty() || full_[0].color().format() != parameters.format) {
+        full_.clear();
+        full_.push_back(Framebuffer({{.name = "bloom", .format = parameters.format}}, source_size));
+    }
+    full_[0].resize(source_size);
 }
 
 const Texture& PyramidBloom::draw(Frame& frame, const Texture& source,
                                   const PyramidBloomParameters& parameters) {
     drawDown(frame, source, parameters);
     drawUp(frame, parameters);
-    return level(0);
+    return result();
+}
+
+bool PyramidBloom::usesSplines(const PyramidBloomParameters& parameters) const {
+    return parameters.filters.down_filter == "spline";
+}
+
+float PyramidBloom::share(const PyramidBloomParameters& parameters) {
+    if (!parameters.filters.normalise) return 1;
+    const int adding = parameters.levels - (parameters.filters.finest ? 0 : 1);
+    return 1 / static_cast<float>(std::max(adding, 1));
 }
 
 // excerpt: down
 void PyramidBloom::drawDown(Frame& frame, const Texture& source, const PyramidBloomParameters& parameters) {
     allocate(source.size(), parameters);
-    frame.pass(
-        "bright", levels_[0],
-        {.program = shaders_.fullScreen("04_pyramid_bloom/bright.frag", parameters.filters.karis.defines()),
-         .inputs = {{"source", source}},
-         .uniforms = {{"threshold", parameters.threshold}, {"knee", parameters.knee}}});
-    for (std::size_t i = 1; i < levels_.size(); ++i)
-        frame.pass("down" + std::to_string(i), levels_[i],
-                   {.program = shaders_.fullScreen("04_pyramid_bloom/down.frag",
-                                                   parameters.filters.down_filter.defines()),
-                    .inputs = {{"source", levels_[i - 1].color()}}});
+    if (usesSplines(parameters)) {
+        drawDownBySplines(frame, source, parameters);
+    } else {
+        frame.pass("bright", levels_[0],
+                   {.program = shaders_.fullScreen("04_pyramid_bloom/bright.frag",
+                                                   parameters.filters.karis.defines()),
+                    .inputs = {{"source", source}},
+                    .uniforms = {{"threshold", parameters.threshold}, {"knee", parameters.knee}}});
+        for (std::size_t i = 1; i < levels_.size(); ++i)
+            frame.pass("down" + std::to_string(i), levels_[i],
+                       {.program = shaders_.fullScreen("04_pyramid_bloom/down.frag",
+                                                       parameters.filters.down_filter.defines()),
+                        .inputs = {{"source", levels_[i - 1].color()}}});
+    }
     for (std::size_t i = 0; i < blurred_.size(); ++i)
         blur(frame, i, parameters.blur_radius);
+}
+// end excerpt
+
+// excerpt: down_by_splines
+void PyramidBloom::drawDownBySplines(Frame& frame, const Texture& source,
+                                     const PyramidBloomParameters& parameters) {
+    const auto draw = [&](const std::string& name, const Framebuffer& target, const Texture& from,
+                          bool bright) {
+        const glm::ivec2 size = from.size();
+        const bool exact = size.x % 2 == 0 && size.y % 2 == 0;
+        const Defines defines = parameters.filters.karis.defines() + Defines{{"BRIGHT", bright ? "1" : "0"},
+                                                                             {"DEGREE", bright ? "1" : "3"},
+                                                                             {"EXACT", exact ? "1" : "0"}};
+        const Program& program = shaders_.fullScreen("04_pyramid_bloom/spline.frag", defines);
+        frame.pass(
+            name, target,
+            {.program = program,
+             .inputs = {{"source", from}},
+             .uniforms = usedBy(program, {{"threshold", parameters.threshold}, {"knee", parameters.knee}})});
+    };
+    draw("bright", levels_[0], source, true);
+    for (std::size_t i = 1; i < levels_.size(); ++i)
+        draw("down" + std::to_string(i), levels_[i], levels_[i - 1].color(), false);
 }
 // end excerpt
 
@@ -121,8 +177,13 @@ void PyramidBloom::drawUp(Frame& frame, const PyramidBloomParameters& parameters
                    {.program = shaders_.fullScreen("04_pyramid_bloom/up.frag",
                                                    parameters.filters.up_filter.defines()),
                     .inputs = {{"source", level(i + 1)}},
-                    .blend = Blend::add});
+                    .blend = i > 0 || parameters.filters.finest ? Blend::add : Blend::replace});
     }
+    if (!full_.empty())
+        frame.pass("up", full_[0],
+                   {.program = shaders_.fullScreen("04_pyramid_bloom/up.frag",
+                                                   parameters.filters.up_filter.defines()),
+                    .inputs = {{"source", level(0)}}});
 }
 // end excerpt
 
@@ -130,7 +191,7 @@ void PyramidBloom::composite(Frame& frame, const Texture& source, float strength
                              const Framebuffer& target) const {
     frame.pass("composite", target,
                {.program = shaders_.fullScreen("04_pyramid_bloom/composite.frag"),
-                .inputs = {{"source", source}, {"bloom", level(0)}},
+                .inputs = {{"source", source}, {"bloom", result()}},
                 .uniforms = {{"strength", strength}}});
 }
 

@@ -17,14 +17,21 @@ struct PyramidFilters {
                               "Karis weight against fireflies: none, on the average of four texels, on each, "
                               "or on each of five boxes")),
           down_filter(settings.choice("down_filter", default_down_filter,
-                                      {"5tap", "13tap", "13tap_as_printed", "4tap", "box"},
-                                      "how levels are halved")),
-          up_filter(settings.choice("up_filter", "tent", {"tent", "4tap", "dual", "bilinear"},
-                                    "how levels are doubled")) {}
+                                      {"5tap", "13tap", "13tap_as_printed", "4tap", "box", "spline"},
+                                      "how levels are halved; spline: by area, exact at every size")),
+          up_filter(settings.choice("up_filter", "tent", {"tent", "4tap", "dual", "bilinear", "spline"},
+                                    "how levels are doubled")),
+          finest(settings.toggle(
+              "finest", true, "whether the largest level adds its own light, or only carries the others'")),
+          normalise(
+              settings.toggle("normalise", false,
+                              "divide by the number of levels: the bloom has the light of what is bright")) {}
 
     Choice karis;
     Choice down_filter;
     Choice up_filter;
+    Toggle finest;
+    Toggle normalise;
 };
 
 // How one bloom is drawn, read anew every frame.
@@ -57,13 +64,18 @@ class PyramidBloom {
 
     // Bright pass, way down and way up of a source of any size and any filterable format (linear filter,
     // clamped to its edges). What it returns is level 0, to be multiplied by a strength and added to the
-    // source. Passes: "bright", "down1"..., "blur_x0", "blur_y0"..., and "up0"...; targets "bloom0"...,
-    // "blur0"....
+    // source: strength * share(parameters). Where splines draw a small frame, whose odd pixels would not all
+    // get the same from bilinear fetches, it is of the frame's own size. Passes: "bright", "down1"...,
+    // "blur_x0", "blur_y0"..., and "up0"...; targets "bloom0"..., "blur0"....
     const Texture& draw(Frame& frame, const Texture& source, const PyramidBloomParameters& parameters);
 
     // The two halves of draw(), for looking at the levels in between.
     void drawDown(Frame& frame, const Texture& source, const PyramidBloomParameters& parameters);
     void drawUp(Frame& frame, const PyramidBloomParameters& parameters);
+
+    // What to multiply a strength by: 1, or 1 / the number of levels that add their light where normalise is
+    // set.
+    static float share(const PyramidBloomParameters& parameters);
 
     // Pass "composite": source + strength * bloom into a target of the source's size, alpha as in the source.
     void composite(Frame& frame, const Texture& source, float strength, const Framebuffer& target) const;
@@ -72,11 +84,15 @@ class PyramidBloom {
     const Texture& level(int i) const { return levels_.at(static_cast<std::size_t>(i)).color(); }
 
   private:
+    const Texture& result() const { return full_.empty() ? level(0) : full_[0].color(); }
     void allocate(glm::ivec2 source_size, const PyramidBloomParameters& parameters);
+    bool usesSplines(const PyramidBloomParameters& parameters) const;
+    void drawDownBySplines(Frame& frame, const Texture& source, const PyramidBloomParameters& parameters);
     void blur(Frame& frame, std::size_t i, float radius);
 
     ShaderLibrary& shaders_;
     std::vector<Framebuffer> levels_;
+    std::vector<Framebuffer> full_; // level 0 at the source's size, where that is small; else empty
     std::vector<Framebuffer>
         blurred_; // one direction blurred, of the levels' sizes; empty while there is no blur
 };

@@ -94,7 +94,7 @@ class HdrBloom final : public Rung {
         std::vector<Input> inputs = {{"hdr", hdr_.color()}};
         if (bloom != nullptr) {
             inputs.push_back({"bloom", *bloom});
-            uniforms.push_back({"intensity", options_.intensity});
+            uniforms.push_back({"intensity", options_.intensity * PyramidBloom::share(bloomParameters())});
         }
         frame.pass("composite", frame.presented(),
                    {.program = program, .inputs = inputs, .uniforms = uniforms});
