@@ -121,8 +121,8 @@ double deltaE2000(const glm::dvec3& lab, const glm::dvec3& other_lab) {
     double mean_h = grey ? h1 + h2 : (h1 + h2) / 2;
     if (!grey && std::abs(h1 - h2) > 180) mean_h += h1 + h2 < 360 ? 180 : -180;
 
-    const double t = 1 - 0.17 * cosDeg(mean_h - 30) + 0.24 * cosDeg(2 * mean_h) + 0.32 * cosDeg(3 * mean_h + 6) -
-                     0.20 * cosDeg(4 * mean_h - 63);
+    const double t = 1 - 0.17 * cosDeg(mean_h - 30) + 0.24 * cosDeg(2 * mean_h) +
+                     0.32 * cosDeg(3 * mean_h + 6) - 0.20 * cosDeg(4 * mean_h - 63);
     const double l_term = (mean_l - 50) * (mean_l - 50);
     const double s_l = 1 + 0.015 * l_term / std::sqrt(20 + l_term);
     const double s_c = 1 + 0.045 * mean_c;

@@ -1,5 +1,5 @@
-// Colours in double: transfer functions, CIE XYZ, CIELAB and ICtCp, and how far apart two colours are in them.
-// "linear_color" is linear light with BT.709 primaries; 1 is the display's white.
+// Colours in double: transfer functions, CIE XYZ, CIELAB and ICtCp, and how far apart two colours are in
+// them. "linear_color" is linear light with BT.709 primaries; 1 is the display's white.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -15,8 +15,8 @@ double srgbDecoded(double display);
 // ITU-R BT.709: 0.2126 R + 0.7152 G + 0.0722 B.
 double luminance709(const glm::dvec3& linear_color);
 
-// From linear RGB to CIE 1931 XYZ with Y = 1 for white (D65, x = 0.3127, y = 0.3290), derived from the primaries
-// of BT.709 and of BT.2020 (SMPTE RP 177).
+// From linear RGB to CIE 1931 XYZ with Y = 1 for white (D65, x = 0.3127, y = 0.3290), derived from the
+// primaries of BT.709 and of BT.2020 (SMPTE RP 177).
 const glm::dmat3& xyzFromBt709();
 const glm::dmat3& bt709FromXyz();
 const glm::dmat3& xyzFromBt2020();

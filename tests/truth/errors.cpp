@@ -111,8 +111,8 @@ double evError(double measured, double truth) {
     return std::log2(measured / truth);
 }
 
-ShiftVariance shiftVariance(const std::vector<ColorImage>& responses, const std::vector<glm::ivec2>& shifts_px,
-                            int period_px) {
+ShiftVariance shiftVariance(const std::vector<ColorImage>& responses,
+                            const std::vector<glm::ivec2>& shifts_px, int period_px) {
     if (responses.empty() || responses.size() != shifts_px.size())
         throw std::invalid_argument("shiftVariance: " + std::to_string(responses.size()) + " responses and " +
                                     std::to_string(shifts_px.size()) + " shifts, give one for each");
@@ -140,7 +140,9 @@ ShiftVariance shiftVariance(const std::vector<ColorImage>& responses, const std:
                          responses[i].at(x + shifts_px[i].x, y + shifts_px[i].y));
     };
     for (std::size_t i = 0; i < responses.size(); ++i)
-        forEach(i, [number](glm::dvec3& of_mean, const glm::dvec3& of_response) { of_mean += of_response / number; });
+        forEach(i, [number](glm::dvec3& of_mean, const glm::dvec3& of_response) {
+            of_mean += of_response / number;
+        });
     double total = 0;
     for (const glm::dvec3& color : mean.pixels)
         total += sumOf(glm::abs(color));

@@ -42,11 +42,11 @@ struct ShiftVariance {
 
 // Each response is moved back by its shift; their mean is what a filter that does not care would give
 // everywhere; a response's deviation from it is the sum of absolute differences over the sum of the mean's
-// absolute values, all channels together. Only pixels that every response has are looked at. The shifts, whole
-// pixels, must run once over a whole period (2^levels pixels for a pyramid) in x, in y, or in both, or else the
-// mean would favour some places: throws where they do not, where responses and shifts differ in number, where
-// the moved pictures share no pixel, and where their mean is black.
-ShiftVariance shiftVariance(const std::vector<ColorImage>& responses, const std::vector<glm::ivec2>& shifts_px,
-                            int period_px);
+// absolute values, all channels together. Only pixels that every response has are looked at. The shifts,
+// whole pixels, must run once over a whole period (2^levels pixels for a pyramid) in x, in y, or in both, or
+// else the mean would favour some places: throws where they do not, where responses and shifts differ in
+// number, where the moved pictures share no pixel, and where their mean is black.
+ShiftVariance shiftVariance(const std::vector<ColorImage>& responses,
+                            const std::vector<glm::ivec2>& shifts_px, int period_px);
 
 } // namespace gll::truth

@@ -128,8 +128,8 @@ struct Plane {
     std::vector<double> values;
 
     const double* row(int y) const {
-        return values.data() + static_cast<std::size_t>(std::clamp(y, 0, height - 1)) *
-                                   static_cast<std::size_t>(width);
+        return values.data() +
+               static_cast<std::size_t>(std::clamp(y, 0, height - 1)) * static_cast<std::size_t>(width);
     }
 };
 
@@ -248,8 +248,8 @@ class RowAnalysis {
                                           relative_y - (cz_[x] + cz_narrow_[x]) / 200);
             row_.hunt_lab[x] = huntLab(glm::clamp(rgb_ * relative_xyz, 0.0, 1.0));
         }
-        // Section 4.2: the achromatic channel in [0, 1], that is (Yy + 16) / 116; of a sum of weights that is 0
-        // the constant does not matter.
+        // Section 4.2: the achromatic channel in [0, 1], that is (Yy + 16) / 116; of a sum of weights that is
+        // 0 the constant does not matter.
         features(y, filters_.feature_edge, row_.edge);
         features(y, filters_.feature_point, row_.point);
         return row_;
@@ -311,8 +311,8 @@ ScalarImage flipWith(const Filters& filters, const ColorImage& display_light,
             const double color_error =
                 distance < p_c * c_max ? distance * p_t / (p_c * c_max)
                                        : p_t + (distance - p_c * c_max) / (c_max - p_c * c_max) * (1 - p_t);
-            const double feature = std::max(std::abs(one.edge[i] - other.edge[i]),
-                                            std::abs(one.point[i] - other.point[i]));
+            const double feature =
+                std::max(std::abs(one.edge[i] - other.edge[i]), std::abs(one.point[i] - other.point[i]));
             const double feature_error = std::pow(feature / std::numbers::sqrt2, q_f);
             map.at(x, y) = std::clamp(std::pow(color_error, 1 - feature_error), 0.0, 1.0); // equation 1
         }

@@ -1,6 +1,6 @@
 // FLIP: the difference a person sees when alternating between two pictures, per pixel.
-// Andersson et al. 2020, "FLIP: A Difference Evaluator for Alternating Images" (LDR-FLIP), and Andersson et al.
-// 2021, "Visualizing Errors in Rendered High Dynamic Range Images" (HDR-FLIP), from their formulas.
+// Andersson et al. 2020, "FLIP: A Difference Evaluator for Alternating Images" (LDR-FLIP), and Andersson et
+// al. 2021, "Visualizing Errors in Rendered High Dynamic Range Images" (HDR-FLIP), from their formulas.
 #pragma once
 
 #include "truth/raster.hpp"
@@ -16,7 +16,8 @@ inline constexpr double most_pixels_per_degree = 1000; // filters have radii of 
 
 // LDR-FLIP of two pictures in linear display light (decoded; values outside [0, 1] are clamped, as displays
 // do): for each pixel 0 (no difference) to 1. Beyond the edges the nearest pixel's colour goes on. Symmetric.
-// Throws std::invalid_argument where sizes differ, a colour is not finite, or pixels_per_degree is out of range.
+// Throws std::invalid_argument where sizes differ, a colour is not finite, or pixels_per_degree is out of
+// range.
 ScalarImage flip(const ColorImage& display_light, const ColorImage& reference_display_light,
                  double pixels_per_degree = default_pixels_per_degree);
 
@@ -29,9 +30,10 @@ struct Exposures {
     double at(int i) const; // in EV, i from 0
 };
 
-// The paper's choice: the first takes the reference's largest luminance to 0.85 behind the tone curve, the last
-// its median; one for each EV between, at least two. Light below 0 counts as 0. Where the paper has no answer:
-// a median of 0 gives way to that of the pixels with light, and a black reference is looked at once, at 0 EV.
+// The paper's choice: the first takes the reference's largest luminance to 0.85 behind the tone curve, the
+// last its median; one for each EV between, at least two. Light below 0 counts as 0. Where the paper has no
+// answer: a median of 0 gives way to that of the pixels with light, and a black reference is looked at once,
+// at 0 EV.
 Exposures flipExposures(const ColorImage& linear_reference);
 
 struct HdrFlip {
@@ -46,8 +48,8 @@ HdrFlip hdrFlip(const ColorImage& linear_image, const ColorImage& linear_referen
                 double pixels_per_degree = default_pixels_per_degree,
                 const std::function<void(int, int)>& progress = {});
 
-// What a map of errors is told by (2020, section 5.1). The weighted median weighs each pixel by its error: half
-// of all the error lies in pixels above it; 0 where nothing differs.
+// What a map of errors is told by (2020, section 5.1). The weighted median weighs each pixel by its error:
+// half of all the error lies in pixels above it; 0 where nothing differs.
 struct FlipSummary {
     double mean = 0;
     double weighted_median = 0;

@@ -121,13 +121,14 @@ void print(const nlohmann::ordered_json& result) {
 
 int run(int argc, char** argv) {
     Options options;
-    CLI::App app("Says how far the frame NEW is from the frame REFERENCE: two PNG or JPEG files (display values) "
-                 "or two EXR or HDR files (linear light), of one size.\n"
-                 "rmse and psnr_db are of display values, rmse of an HDR pair of linear light; relative_rmse, "
-                 "log2_rmse_ev, energy_ratio and hdr_flip_* of linear light; flip_* of what a display shows, that "
-                 "is linear light clamped to [0, 1]. null in JSON stands for infinite.\n"
-                 "Ends with 0 when measured, 1 when that is not possible, 2 on wrong usage.",
-                 "frame_error");
+    CLI::App app(
+        "Says how far the frame NEW is from the frame REFERENCE: two PNG or JPEG files (display values) "
+        "or two EXR or HDR files (linear light), of one size.\n"
+        "rmse and psnr_db are of display values, rmse of an HDR pair of linear light; relative_rmse, "
+        "log2_rmse_ev, energy_ratio and hdr_flip_* of linear light; flip_* of what a display shows, that "
+        "is linear light clamped to [0, 1]. null in JSON stands for infinite.\n"
+        "Ends with 0 when measured, 1 when that is not possible, 2 on wrong usage.",
+        "frame_error");
     app.add_option("NEW", options.image, "The frame to judge")->required();
     app.add_option("REFERENCE", options.reference, "The frame that is right")->required();
     app.add_flag("--json", options.json, "Print one JSON object");
@@ -138,7 +139,13 @@ int run(int argc, char** argv) {
         });
     app.add_option("--pixels-per-degree", options.pixels_per_degree, "Viewing distance that FLIP assumes")
         ->capture_default_str()
-        ->check(CLI::Range(least_pixels_per_degree, most_pixels_per_degree));
+        ->check([](const std::string& text) { // CLI::Range lets nan pass
+            double value = 0;
+            const bool number = CLI::detail::lexical_cast(text, value);
+            return number && value >= least_pixels_per_degree && value <= most_pixels_per_degree
+                       ? std::string()
+                       : "'" + text + "' is no number from 1 to 1000";
+        });
     app.set_version_flag("--version", "frame_error " GLLADDER_VERSION " (GL Ladder)");
     try {
         app.parse(argc, argv);

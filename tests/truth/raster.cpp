@@ -92,7 +92,8 @@ ScalarImage alpha(const Image& image) {
 void requireFinite(const Image& image, const std::string& name) {
     const auto* samples = std::get_if<std::vector<float>>(&image.pixels);
     if (samples == nullptr) return;
-    const auto bad = std::find_if_not(samples->begin(), samples->end(), [](float v) { return std::isfinite(v); });
+    const auto bad =
+        std::find_if_not(samples->begin(), samples->end(), [](float v) { return std::isfinite(v); });
     if (bad == samples->end()) return;
     const auto at = static_cast<int>((bad - samples->begin()) / image.channels);
     const auto channel = static_cast<std::size_t>((bad - samples->begin()) % image.channels);
