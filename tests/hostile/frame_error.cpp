@@ -61,6 +61,8 @@ TEST_F(FrameError, refusesFilesItCannotRead) {
 TEST_F(FrameError, refusesSizesThatDiffer) {
     saveImage(folder / "turned.png", image(6, 8, false));
     expectRefused("turned.png", "frame.png", {"turned.png", "6x8", "frame.png", "8x6"});
+    saveImage(folder / "lower.png", image(8, 5, false));
+    expectRefused("lower.png", "frame.png", {"lower.png", "8x5", "frame.png", "8x6"});
     saveImage(folder / "one.exr", image(1, 1, true));
     expectRefused("frame.exr", "one.exr", {"8x6", "1x1"});
 }

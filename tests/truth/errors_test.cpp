@@ -125,7 +125,9 @@ TEST(ShiftVariance, refusesShiftsThatFavourSomePlaces) {
     };
     EXPECT_EQ(refusal({{0, 0}, {-1, 0}}, 2), "") << "any representative of a place will do";
     EXPECT_CONTAINS(refusal({{0, 0}, {1, 0}, {2, 0}}, 4), "period of 4");
-    EXPECT_CONTAINS(refusal({{0, 0}, {2, 0}}, 2), "period of 2") << "the same place twice";
+    EXPECT_CONTAINS(refusal({{0, 0}, {1, 0}, {2, 0}}, 2), "period of 2") << "one place twice";
+    EXPECT_CONTAINS(refusal({{0, 0}, {1, 0}, {0, 1}, {1, 1}, {0, 2}, {1, 2}}, 3), "period of 3")
+        << "whole in y, two of three in x";
     EXPECT_CONTAINS(refusal({{0, 0}, {1, 0}, {0, 1}}, 2), "period of 2") << "one corner is missing";
     EXPECT_CONTAINS(refusal({{0, 0}, {13, 0}}, 2), "share no pixel");
     EXPECT_CONTAINS(refusal({}, 2), "0 responses");
