@@ -1,4 +1,4 @@
-// Section and equation numbers are those of Andersson et al. 2020, where 2021 is not said.
+// Constants and names are those of Andersson et al. 2020, and of 2021 where exposures and tone are concerned.
 #include "truth/flip.hpp"
 
 #include "truth/color.hpp"
@@ -19,7 +19,7 @@ namespace {
 
 using Taps = std::vector<double>; // an odd number of weights, the middle one at the pixel itself
 
-// Section 4.1.1, table 1: contrast sensitivity of the opponent channels as sums of Gaussians; in space
+// The contrast sensitivity of the opponent channels as sums of Gaussians; in space
 // a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees.
 constexpr double b_achromatic = 0.0047;
 constexpr double b_red_green = 0.0053;
@@ -28,14 +28,14 @@ constexpr double b1_blue_yellow = 0.04; // the widest
 constexpr double a2_blue_yellow = 13.5;
 constexpr double b2_blue_yellow = 0.025;
 
-// Sections 4.1.3 and 4.2.
+// The exponents and the knee of the error's curve, and the feature filters' width.
 constexpr double q_c = 0.7;
 constexpr double p_c = 0.4;
 constexpr double p_t = 0.95;
 constexpr double feature_width_deg = 0.082; // from the peak to the trough of the eye's edge detector
 constexpr double q_f = 0.5;
 
-// The tone curve of 2021, table 1: Narkowicz's fit with his exposure of 0.6 taken back.
+// HDR-FLIP's tone curve: Narkowicz's fit with his exposure of 0.6 taken back.
 constexpr double k0 = 0.6 * 0.6 * 2.51;
 constexpr double k1 = 0.6 * 0.03;
 constexpr double k3 = 0.6 * 0.6 * 2.43;
@@ -68,7 +68,7 @@ Taps scaled(Taps taps, double factor) {
 
 Taps normalized(const Taps& taps) { return scaled(taps, 1 / sum(taps)); }
 
-// Positive weights to the sum 1 and negative ones to -1 (section 4.2).
+// Positive weights to the sum 1 and negative ones to -1, so that a step from black to white is an edge of 1.
 Taps balanced(Taps taps) {
     double positive = 0;
     double negative = 0;
@@ -184,12 +184,19 @@ class RowFilter {
     std::vector<double> padded_;
 };
 
-// One picture in YyCxCz, the linear version of CIELAB that light is blurred in (section 4.1.1).
+// One picture in YyCxCz, the linear version of CIELAB that light is blurred in.
 struct Opponent {
     Plane yy, cx, cz;
 };
 
-glm::dvec3 white() { return xyzFromBt709() * glm::dvec3(1); }
+// To XYZ in units of the white's.
+glm::dmat3 relativeXyzFromRgb() {
+    const glm::dvec3 white = xyzFromBt709() * glm::dvec3(1);
+    glm::dmat3 matrix = xyzFromBt709();
+    for (int column = 0; column < 3; ++column)
+        matrix[column] /= white;
+    return matrix;
+}
 
 Opponent opponentOf(const ColorImage& display_light) {
     Opponent result;
@@ -198,9 +205,7 @@ Opponent opponentOf(const ColorImage& display_light) {
         plane->height = display_light.height;
         plane->values.reserve(display_light.pixels.size());
     }
-    glm::dmat3 relative_xyz = xyzFromBt709();
-    for (int i = 0; i < 3; ++i)
-        relative_xyz[i] /= white();
+    const glm::dmat3 relative_xyz = relativeXyzFromRgb();
     for (const glm::dvec3& light : display_light.pixels) {
         const glm::dvec3 xyz = relative_xyz * glm::clamp(light, 0.0, 1.0);
         result.yy.values.push_back(116 * xyz.y - 16);
@@ -210,7 +215,7 @@ Opponent opponentOf(const ColorImage& display_light) {
     return result;
 }
 
-// CIELAB with Hunt's adjustment: chroma fades with lightness (section 4.1.2).
+// CIELAB with Hunt's adjustment: chroma fades with lightness.
 glm::dvec3 huntLab(const glm::dvec3& display_light) {
     const glm::dvec3 lab = cieLab(display_light);
     return {lab.x, 0.01 * lab.x * lab.y, 0.01 * lab.x * lab.z};
@@ -231,12 +236,7 @@ struct Row {
 class RowAnalysis {
   public:
     RowAnalysis(const Opponent& opponent, const Filters& filters)
-        : opponent_(opponent), filters_(filters), row_() {
-        glm::dmat3 relative_xyz = xyzFromBt709();
-        for (int i = 0; i < 3; ++i)
-            relative_xyz[i] /= white();
-        rgb_ = glm::inverse(relative_xyz);
-    }
+        : opponent_(opponent), filters_(filters), rgb_(glm::inverse(relativeXyzFromRgb())) {}
 
     const Row& analyse(int y) {
         const auto width = static_cast<std::size_t>(opponent_.yy.width);
@@ -248,8 +248,8 @@ class RowAnalysis {
                                           relative_y - (cz_[x] + cz_narrow_[x]) / 200);
             row_.hunt_lab[x] = huntLab(glm::clamp(rgb_ * relative_xyz, 0.0, 1.0));
         }
-        // Section 4.2: the achromatic channel in [0, 1], that is (Yy + 16) / 116; of a sum of weights that is
-        // 0 the constant does not matter.
+        // Features are those of the achromatic channel in [0, 1], that is (Yy + 16) / 116; of a sum of
+        // weights that is 0 the constant does not matter.
         features(y, filters_.feature_edge, row_.edge);
         features(y, filters_.feature_point, row_.point);
         return row_;
@@ -280,7 +280,7 @@ class RowAnalysis {
 
     const Opponent& opponent_;
     const Filters& filters_;
-    glm::dmat3 rgb_{}; // from XYZ relative to white
+    glm::dmat3 rgb_; // from XYZ in units of the white's
     RowFilter filter_;
     std::vector<double> yy_, cx_, cz_, cz_narrow_, across_, down_;
     Row row_;
@@ -299,7 +299,7 @@ ScalarImage flipWith(const Filters& filters, const ColorImage& display_light,
     const Opponent reference_opponent = opponentOf(reference_display_light);
     RowAnalysis analysis(opponent, filters);
     RowAnalysis reference_analysis(reference_opponent, filters);
-    // The largest distance in the RGB cube is that of green and blue (section 4.1.3).
+    // The largest distance in the RGB cube is that of green and blue.
     const double c_max = std::pow(hyab(huntLab({0, 1, 0}), huntLab({0, 0, 1})), q_c);
     ScalarImage map(display_light.width, display_light.height);
     for (int y = 0; y < map.height; ++y) {
@@ -314,7 +314,7 @@ ScalarImage flipWith(const Filters& filters, const ColorImage& display_light,
             const double feature =
                 std::max(std::abs(one.edge[i] - other.edge[i]), std::abs(one.point[i] - other.point[i]));
             const double feature_error = std::pow(feature / std::numbers::sqrt2, q_f);
-            map.at(x, y) = std::clamp(std::pow(color_error, 1 - feature_error), 0.0, 1.0); // equation 1
+            map.at(x, y) = std::clamp(std::pow(color_error, 1 - feature_error), 0.0, 1.0);
         }
     }
     return map;
@@ -361,7 +361,7 @@ Exposures flipExposures(const ColorImage& linear_reference) {
         std::erase_if(luminances, [](double luminance) { return luminance <= 0; });
         middle = median(luminances);
     }
-    const double light = toneInverse(exposed_to); // 2021, section 4: both ends have this one
+    const double light = toneInverse(exposed_to); // both ends have this one
     Exposures result{std::log2(light / largest), std::log2(light / middle), 2};
     result.count = std::max(2, static_cast<int>(std::ceil(result.stop_ev - result.start_ev)));
     return result;

@@ -48,7 +48,7 @@ HdrFlip hdrFlip(const ColorImage& linear_image, const ColorImage& linear_referen
                 double pixels_per_degree = default_pixels_per_degree,
                 const std::function<void(int, int)>& progress = {});
 
-// What a map of errors is told by (2020, section 5.1). The weighted median weighs each pixel by its error:
+// What a map of errors is told by. The weighted median weighs each pixel by its error:
 // half of all the error lies in pixels above it; 0 where nothing differs.
 struct FlipSummary {
     double mean = 0;

@@ -12,7 +12,7 @@
 namespace gll::truth {
 namespace {
 
-// All of it is held in double, some 150 bytes a pixel; an 8K frame has 33.2 million.
+// All of it is held in double, some 200 bytes a pixel; an 8K frame has 33.2 million.
 constexpr std::size_t max_compared_pixels = std::size_t(1) << 25;
 
 struct Options {
