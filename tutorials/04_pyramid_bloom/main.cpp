@@ -5,6 +5,7 @@
 #include "04_pyramid_bloom/harbour.hpp"
 #include "04_pyramid_bloom/pyramid_bloom.hpp"
 #include "app/camera.hpp"
+#include "app/scene_image.hpp"
 #include "run/run.hpp"
 
 #include <cmath>
@@ -46,7 +47,8 @@ class PyramidBloomRung final : public Rung {
     using Options = PyramidOptions;
 
     PyramidBloomRung(RungResources resources, const Options& options)
-        : shaders_(resources.shaders), options_(options), bloom_(resources.shaders) {}
+        : shaders_(resources.shaders), options_(options), image_(shaders_, resources.given.image),
+          bloom_(resources.shaders) {}
 
     // excerpt: frame
     void render(Frame& frame) override {
@@ -57,7 +59,7 @@ class PyramidBloomRung final : public Rung {
         bloom_.drawDown(frame, hdr_.color(), parameters);
         if (options_.view == "pyramid") return drawSheet(frame, hdr_.color());
         bloom_.drawUp(frame, parameters);
-        bloom_.composite(frame, hdr_.color(), options_.strength, lit_);
+        bloom_.composite(frame, hdr_.color(), options_.strength * PyramidBloom::share(parameters), lit_);
         if (options_.view == "sums") return drawSheet(frame, lit_.color());
         present(frame);
     }
@@ -66,6 +68,7 @@ class PyramidBloomRung final : public Rung {
   private:
     // excerpt: scene
     void drawScene(Frame& frame) {
+        if (image_) return image_.draw(frame, "scene", hdr_);
         const float sway_m = 2.5F * std::sin(0.25F * frame.time_s());
         const Camera camera = options_.orbit.apply({.position = {sway_m, 7, 42},
                                                     .target = {0, 9, -60},
@@ -151,6 +154,7 @@ class PyramidBloomRung final : public Rung {
 
     ShaderLibrary& shaders_;
     const Options& options_;
+    SceneImage image_; // --image
     Framebuffer hdr_{{{.name = "hdr", .format = Format::rgba16f},
                       {.name = "depth", .format = Format::depth24, .filter = Filter::nearest}},
                      {1, 1}};
@@ -164,7 +168,8 @@ class PyramidBloomRung final : public Rung {
 } // namespace
 
 int main(int argc, char** argv) {
-    return gll::run<PyramidBloomRung>(
-        argc, argv,
-        {.name = "04_pyramid_bloom", .summary = "A harbour at night: bloom by a pyramid of blurred levels."});
+    return gll::run<PyramidBloomRung>(argc, argv,
+                                      {.name = "04_pyramid_bloom",
+                                       .summary = "A harbour at night: bloom by a pyramid of blurred levels.",
+                                       .takes_image = true});
 }

@@ -4,6 +4,7 @@
 #include "01_hdr/tone_map.hpp"
 #include "04_pyramid_bloom/pyramid_bloom.hpp"
 #include "app/camera.hpp"
+#include "app/scene_image.hpp"
 #include "run/run.hpp"
 #include "swarm.hpp"
 
@@ -40,7 +41,8 @@ class HdrBloom final : public Rung {
     using Options = HdrBloomOptions;
 
     HdrBloom(RungResources resources, const Options& options)
-        : shaders_(resources.shaders), options_(options), bloom_(resources.shaders) {}
+        : shaders_(resources.shaders), options_(options), image_(shaders_, resources.given.image),
+          bloom_(resources.shaders) {}
 
     // excerpt: frame
     void render(Frame& frame) override {
@@ -53,6 +55,7 @@ class HdrBloom final : public Rung {
   private:
     // excerpt: scene
     void drawScene(Frame& frame) {
+        if (image_) return image_.draw(frame, "scene", hdr_);
         const float orbit_rad = frame.time_s() * 0.3F;
         const Camera camera = options_.orbit.apply(
             {.position = {14 * std::cos(orbit_rad), 2 * std::sin(2 * orbit_rad), 14 * std::sin(orbit_rad)},
@@ -113,6 +116,7 @@ class HdrBloom final : public Rung {
 
     ShaderLibrary& shaders_;
     const Options& options_;
+    SceneImage image_; // --image
     Framebuffer hdr_{{{.name = "hdr", .format = Format::rgba16f},
                       {.name = "depth", .format = Format::depth24, .filter = Filter::nearest}},
                      {1, 1}};
@@ -124,7 +128,8 @@ class HdrBloom final : public Rung {
 } // namespace
 
 int main(int argc, char** argv) {
-    return gll::run<HdrBloom>(
-        argc, argv,
-        {.name = "05_hdr_bloom", .summary = "A swarm of glowing cubes: HDR target, bloom, ACES."});
+    return gll::run<HdrBloom>(argc, argv,
+                              {.name = "05_hdr_bloom",
+                               .summary = "A swarm of glowing cubes: HDR target, bloom, ACES.",
+                               .takes_image = true});
 }
