@@ -1,0 +1,71 @@
+#version 330 core
+// Light on the street, and what of it is bright enough to bloom: two targets from one pass.
+#include "lib/luminance.glsl"
+
+in vec3 world_position;
+flat in vec3 world_normal;
+flat in vec3 surface_albedo;
+in vec3 emitted_color; // linear
+
+uniform vec3 camera_position;          // world, above the ground
+uniform vec3 light_positions[LIGHTS];  // world
+uniform vec3 light_colors[LIGHTS];     // linear, radiant intensity
+uniform float threshold;               // luminance
+
+layout(location = 0) out vec4 hdr_color;    // linear, [0, 65504]
+layout(location = 1) out vec4 bright_color; // the same where it is bright, else black
+
+const vec3 ambient = vec3(0.010, 0.012, 0.022);
+const vec3 haze_color = vec3(0.010, 0.012, 0.024); // the sky's at the horizon
+const float haze_per_metre = 0.012;
+const vec3 asphalt = vec3(0.06, 0.06, 0.065);
+const float inverse_pi = 0.31831;
+
+vec3 litColor(vec3 position, vec3 normal, vec3 albedo) {
+    vec3 light = ambient;
+    for (int i = 0; i < LIGHTS; ++i) {
+        vec3 to_light = light_positions[i] - position;
+        float squared = dot(to_light, to_light) + 0.01; // a lamp is no point: nothing is infinitely near
+        float near = inversesqrt(squared);
+        light += light_colors[i] * (max(dot(normal, to_light), 0.0) * near * near * near);
+    }
+    return albedo * light;
+}
+
+// How much water lies on the asphalt, 0 to 1: waves of sine, bent by each other, so that no grid is seen.
+float water(vec2 place) {
+    float height = sin(place.x * 0.9 + 1.7 * sin(place.y * 0.35)) + sin(place.y * 0.6 + 1.3 * sin(place.x * 0.7 + 2.0));
+    return smoothstep(-0.6, 0.9, height);
+}
+
+// Below the ground lies the street's mirror image, seen through the surface of the road.
+vec3 seenInTheRoad(vec3 reflected_color) {
+    vec3 to_image = world_position - camera_position;
+    vec3 ground = camera_position + to_image * (camera_position.y / -to_image.y);
+    float cos_view = -to_image.y * inversesqrt(dot(to_image, to_image));
+    // Schlick 1994: water reflects 2 % seen from above, everything seen along its surface.
+    float grazing = 1.0 - cos_view;
+    float squared = grazing * grazing;
+    float fresnel = 0.02 + 0.98 * squared * squared * grazing;
+    return litColor(ground, vec3(0.0, 1.0, 0.0), asphalt) + reflected_color * (fresnel * mix(0.15, 1.0, water(ground.xz)));
+}
+
+// excerpt: bright_pass
+bool isBright(float luma) {
+#if BRIGHT_PASS == BRIGHT_PASS_FIXED
+    return luma > threshold;
+#elif BRIGHT_PASS == BRIGHT_PASS_WHITE_POINT
+    return luma >= threshold;
+#endif
+}
+
+void main() {
+    vec3 position = vec3(world_position.x, abs(world_position.y), world_position.z);
+    vec3 color = emitted_color + litColor(position, world_normal, surface_albedo);
+    if (world_position.y < 0.0) color = seenInTheRoad(color);
+    color = mix(haze_color, color, exp(-haze_per_metre * distance(world_position, camera_position)));
+
+    hdr_color = vec4(min(color, 65504.0), 1.0);
+    bright_color = vec4(isBright(luminance(color)) ? hdr_color.BRIGHT_CHANNELS : vec3(0.0), 1.0);
+}
+// end excerpt
