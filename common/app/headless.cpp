@@ -21,20 +21,6 @@ void onInterrupt(int) {
     std::signal(SIGINT, SIG_DFL); // a second Ctrl-C ends the program at once
 }
 
-// Copies the target of one pass right after it was drawn.
-class PassCapture final : public PassObserver {
-  public:
-    explicit PassCapture(std::string pass) : pass_(std::move(pass)) {}
-    void after(const DrawnPass& pass) override {
-        if (pass.name == pass_) image = readTexture(pass.target->texture(0));
-    }
-
-    std::optional<Image> image;
-
-  private:
-    std::string pass_;
-};
-
 std::string joined(const std::vector<std::string>& words) {
     std::string text;
     for (const std::string& word : words)
@@ -42,9 +28,55 @@ std::string joined(const std::vector<std::string>& words) {
     return text;
 }
 
+// Right after a pass was drawn: overwrites pixels where that was asked for, and copies the target of one
+// pass.
+class PassProbe final : public PassObserver {
+  public:
+    explicit PassProbe(const FrameRequest& request) : target_(request.target), waiting_(request.injections) {}
+
+    void after(const DrawnPass& pass) override {
+        std::erase_if(waiting_, [&](const Injection& injection) { return inject(injection, pass); });
+        if (pass.name == target_) image = readTexture(pass.target->texture(0));
+    }
+
+    std::optional<Image> image;
+
+    // Throws UsageError where an injection found no pass.
+    void requireDone(const std::vector<DrawnPass>& passes) const {
+        if (waiting_.empty()) return;
+        std::vector<std::string> names = targetNames(passes);
+        for (const DrawnPass& pass : passes)
+            names.push_back(pass.name);
+        throw UsageError("--inject " + waiting_.front().name + ": with these settings there is " +
+                         joined(names));
+    }
+
+  private:
+    static bool inject(const Injection& injection, const DrawnPass& pass) {
+        const auto& attachments = pass.target->attachments();
+        for (std::size_t i = 0; i < attachments.size(); ++i) {
+            if (injection.name != attachments[i].name && (injection.name != pass.name || i > 0)) continue;
+            const glm::ivec2 size = pass.target->size();
+            if (injection.pixel.x >= size.x || injection.pixel.y >= size.y)
+                throw UsageError("--inject " + injection.name + ": there it is " + std::to_string(size.x) +
+                                 "x" + std::to_string(size.y) + " pixels");
+            if (formatInfo(attachments[i].format).is_depth)
+                throw UsageError("--inject " + injection.name + ": is depth; name a colour target");
+            pass.target->texture(i).setTexel({injection.pixel.x, size.y - 1 - injection.pixel.y},
+                                             injection.value);
+            return true;
+        }
+        return false;
+    }
+
+    std::string target_;
+    std::vector<Injection> waiting_;
+};
+
 Image renderImage(Renderer& renderer, const FrameRequest& request, int frame) {
-    PassCapture capture(request.target);
-    const auto& passes = renderer.render(frame, request.size, request.target.empty() ? nullptr : &capture);
+    PassProbe probe(request);
+    const auto& passes = renderer.render(frame, request.size, &probe);
+    probe.requireDone(passes);
     if (request.target.empty()) {
         Image image = readTexture(renderer.presented().color());
         image.colour_space = ColourSpace::srgb; // what the last pass wrote for a display
@@ -55,7 +87,7 @@ Image renderImage(Renderer& renderer, const FrameRequest& request, int frame) {
         if (texture == &renderer.presented().color()) image.colour_space = ColourSpace::srgb;
         return image;
     }
-    if (capture.image) return *capture.image;
+    if (probe.image) return *probe.image;
     std::vector<std::string> names = targetNames(passes);
     for (const DrawnPass& pass : passes)
         names.push_back(pass.name);

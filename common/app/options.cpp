@@ -107,6 +107,11 @@ FrameRequest parseBatchLine(const std::string& line, FrameRequest request) {
             request.out = scalarText(key, value);
         } else if (key == "target") {
             request.target = scalarText(key, value);
+        } else if (key == "inject" && value.is_string()) {
+            request.injections.push_back(parseInjection(value.get<std::string>()));
+        } else if (key == "inject" && value.is_array()) {
+            for (const auto& one : value)
+                request.injections.push_back(parseInjection(scalarText(key, one)));
         } else if (key == "cost" && value.is_boolean()) {
             request.cost = value.get<bool>();
         } else if (key == "set" && value.is_object()) {
@@ -118,7 +123,7 @@ FrameRequest parseBatchLine(const std::string& line, FrameRequest request) {
         } else {
             throw UsageError("\"" + key +
                              "\" with this value is no key of a batch line; there is size, frame, "
-                             "frames, preset, set (an object or a list), out, target, cost");
+                             "frames, preset, set (an object or a list), out, target, inject, cost");
         }
     }
     if (json.contains("frame") && json.contains("frames"))
@@ -177,6 +182,27 @@ CounterKind counterKind(const std::string& name) {
 
 } // namespace
 
+Injection parseInjection(const std::string& text) {
+    const auto value_at = text.rfind(':');
+    const auto pixel_at =
+        value_at == std::string::npos || value_at == 0 ? value_at : text.rfind(':', value_at - 1);
+    if (pixel_at == std::string::npos || pixel_at == 0 || pixel_at == value_at)
+        throw UsageError("--inject " + text + ": write PASS:X,Y:VALUE, such as scene:320,240:nan");
+    const std::string_view pixel = std::string_view(text).substr(pixel_at + 1, value_at - pixel_at - 1);
+    const auto comma = std::min(pixel.find(','), pixel.size());
+    Injection injection;
+    injection.name = text.substr(0, pixel_at);
+    injection.pixel = {parseInteger(pixel.substr(0, comma), 0, max_extent_px - 1, "--inject " + text),
+                       parseInteger(comma == pixel.size() ? "" : pixel.substr(comma + 1), 0,
+                                    max_extent_px - 1, "--inject " + text)};
+    const char* number = text.c_str() + value_at + 1;
+    char* end = nullptr;
+    injection.value = std::strtof(number, &end); // reads inf and nan too
+    if (end == number || *end != '\0')
+        throw UsageError("--inject " + text + ": \"" + number + "\" is no number, inf, -inf or nan");
+    return injection;
+}
+
 glm::ivec2 parseSize(const std::string& text) {
     const auto x = text.find('x');
     if (x == std::string::npos) throw UsageError("--size " + text + ": write WIDTHxHEIGHT, such as 640x480");
@@ -216,6 +242,7 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
     std::string frames;
     std::string batch;
     std::string counter = "auto";
+    std::vector<std::string> injections;
     app.add_flag("--headless", headless,
                  "render without a window: OSMesa, or EGL where that is not installed");
     app.add_option("--context", context, "who provides OpenGL: window, osmesa or egl")
@@ -238,6 +265,11 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
     app.add_option("--target", options.request.target,
                    "write this target (as it is at the end) or this pass's (right after it) instead")
         ->type_name("NAME");
+    app.add_option("--inject", injections,
+                   "overwrite one pixel right after a pass, such as scene:320,240:nan; may be repeated")
+        ->type_name("PASS:X,Y:VALUE")
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_flag("--settings", options.list_settings, "list settings, presets, targets and passes");
     app.add_option("--batch", batch, "many frames in one process: a JSON object a line, keys as the options")
         ->type_name("FILE");
@@ -271,6 +303,8 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
         throw UsageError(std::string(error.what()) + "; --help lists the options");
     }
 
+    for (const std::string& injection : injections)
+        options.request.injections.push_back(parseInjection(injection));
     if (!size.empty()) options.request.size = parseSize(size);
     if (!frame.empty() && !frames.empty()) throw UsageError("--frame and --frames exclude each other");
     if (!frame.empty())
@@ -280,7 +314,8 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
     options.counter = counterKind(counter);
 
     const bool needs_headless = !options.request.out.empty() || !frames.empty() ||
-                                !options.request.target.empty() || !batch.empty() || options.request.cost;
+                                !options.request.target.empty() || !batch.empty() || options.request.cost ||
+                                !injections.empty();
     if (!context.empty())
         options.context = contextKind(context);
     else if (headless || needs_headless)

@@ -19,6 +19,14 @@ enum class ContextKind {
 }; // headless: OSMesa, or EGL where that is not installed
 enum class CounterKind { automatic, perf, callgrind, cpu, gpu };
 
+// One pixel overwritten in the middle of a frame: to see how far a value that should not be there spreads.
+struct Injection {
+    std::string
+        name; // a pass, whose first attachment is meant, or an attachment, at the first pass that draws it
+    glm::ivec2 pixel{0}; // counted from the top left
+    float value = 0;     // in every channel; may be infinite or not a number
+};
+
 // One frame, or a run of them, and what is to come of it.
 struct FrameRequest {
     glm::ivec2 size{640, 480};
@@ -29,6 +37,7 @@ struct FrameRequest {
     std::vector<std::string> sets; // KEY=VALUE, applied over the preset in order
     std::filesystem::path out;     // empty: nothing is written; with a %d where there are several frames
     std::string target;            // empty: the presented frame; a target's name, or a pass's
+    std::vector<Injection> injections;
     bool cost = false;
 
     bool isSequence() const { return first_frame != last_frame; }
@@ -51,6 +60,9 @@ struct Options {
 // std::runtime_error where the batch file cannot be read. Leaves the settings at their defaults: the requests
 // say what to set.
 std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info, Settings& settings);
+
+// "NAME:X,Y:VALUE", VALUE a number, inf, -inf or nan. Throws UsageError.
+Injection parseInjection(const std::string& text);
 
 // A size such as "640x480": both sides 1 to 16384, at most 64 Mi pixels. Throws UsageError.
 glm::ivec2 parseSize(const std::string& text);

@@ -120,4 +120,14 @@ void Texture::setLevel(int level, std::span<const float> pixels) const {
     glBindTexture(GL_TEXTURE_2D, 0);
 }
 
+void Texture::setTexel(glm::ivec2 texel, float value) const {
+    if (texel.x < 0 || texel.y < 0 || texel.x >= size().x || texel.y >= size().y)
+        throw std::out_of_range("texture: no texel (" + std::to_string(texel.x) + "," +
+                                std::to_string(texel.y) + ")");
+    const float values[] = {value, value, value, value};
+    glBindTexture(GL_TEXTURE_2D, id());
+    glTexSubImage2D(GL_TEXTURE_2D, 0, texel.x, texel.y, 1, 1, formatInfo(format()).layout, GL_FLOAT, values);
+    glBindTexture(GL_TEXTURE_2D, 0);
+}
+
 } // namespace gll

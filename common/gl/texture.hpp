@@ -51,6 +51,11 @@ class Texture {
     // divide.
     void setLevel(int level, std::span<const float> pixels) const;
 
+    // Overwrites one texel of level 0 of a colour texture, counted from the bottom left, with value in every
+    // channel: for tests of what one bad pixel does. Throws std::out_of_range where the texture has no such
+    // texel.
+    void setTexel(glm::ivec2 texel, float value) const;
+
   private:
     static void destroy(GLuint id) { glDeleteTextures(1, &id); }
     void allocate(GLenum layout, GLenum type, const void* pixels);

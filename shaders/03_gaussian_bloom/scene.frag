@@ -19,7 +19,7 @@ const vec3 ambient = vec3(0.010, 0.012, 0.022);
 const vec3 haze_color = vec3(0.010, 0.012, 0.024); // the sky's at the horizon
 const float haze_per_metre = 0.012;
 const vec3 asphalt = vec3(0.06, 0.06, 0.065);
-const float inverse_pi = 0.31831;
+const vec3 mirrored_light = vec3(0.25, 0.19, 0.13); // on every wall of the mirror image
 
 vec3 litColor(vec3 position, vec3 normal, vec3 albedo) {
     vec3 light = ambient;
@@ -38,16 +38,23 @@ float water(vec2 place) {
     return smoothstep(-0.6, 0.9, height);
 }
 
-// Below the ground lies the street's mirror image, seen through the surface of the road.
-vec3 seenInTheRoad(vec3 reflected_color) {
-    vec3 to_image = world_position - camera_position;
-    vec3 ground = camera_position + to_image * (camera_position.y / -to_image.y);
-    float cos_view = -to_image.y * inversesqrt(dot(to_image, to_image));
-    // Schlick 1994: water reflects 2 % seen from above, everything seen along its surface.
+// How much of the mirror image one sees in the road. Schlick 1994: water reflects 2 % seen from above, and everything
+// seen along its surface.
+float reflectance(vec3 ground, float cos_view) {
     float grazing = 1.0 - cos_view;
     float squared = grazing * grazing;
-    float fresnel = 0.02 + 0.98 * squared * squared * grazing;
-    return litColor(ground, vec3(0.0, 1.0, 0.0), asphalt) + reflected_color * (fresnel * mix(0.15, 1.0, water(ground.xz)));
+    return (0.02 + 0.98 * squared * squared * grazing) * mix(0.15, 1.0, water(ground.xz));
+}
+
+// Below the ground lies the street's mirror image, seen through the surface of the road. Its emitters are what
+// matters there; its walls have the same light everywhere, so that no pixel looks at the lamps twice.
+vec3 seenColor() {
+    if (world_position.y >= 0.0) return emitted_color + litColor(world_position, world_normal, surface_albedo);
+    vec3 to_image = world_position - camera_position;
+    vec3 ground = camera_position + to_image * (camera_position.y / -to_image.y);
+    vec3 mirrored_color = emitted_color + mirrored_light * surface_albedo;
+    float cos_view = -to_image.y * inversesqrt(dot(to_image, to_image));
+    return litColor(ground, vec3(0.0, 1.0, 0.0), asphalt) + mirrored_color * reflectance(ground, cos_view);
 }
 
 // excerpt: bright_pass
@@ -60,9 +67,7 @@ bool isBright(float luma) {
 }
 
 void main() {
-    vec3 position = vec3(world_position.x, abs(world_position.y), world_position.z);
-    vec3 color = emitted_color + litColor(position, world_normal, surface_albedo);
-    if (world_position.y < 0.0) color = seenInTheRoad(color);
+    vec3 color = seenColor();
     color = mix(haze_color, color, exp(-haze_per_metre * distance(world_position, camera_position)));
 
     hdr_color = vec4(min(color, 65504.0), 1.0);

@@ -58,12 +58,11 @@ class Shaders : public testing::Test {
     }
 
     // The last stage of the rung, and a file that it includes.
-    fs::path stage() const { return shaders_ / rung_ / "composite.frag"; }
-    std::string stageName() const { return rung_ + "/composite.frag"; }
+    fs::path stage() const { return shaders_ / "lib" / "present.frag"; }
+    static std::string stageName() { return "lib/present.frag"; }
 
     static inline std::unique_ptr<TemporaryFolder> installation_;
     static inline fs::path program_;
-    const std::string rung_ = rungProgram().filename().string();
     const fs::path shaders_ = *installation_ / "shaders";
     TemporaryFolder folder_;
 };
@@ -157,7 +156,7 @@ TEST_F(Shaders, thatAreNoiseAreRefused) {
 
 TEST_F(Shaders, thatAreEnormousAreRefused) {
     write(stage(), std::string(2 << 20, '\n'));
-    expectRefused({"composite.frag", "1 MiB"});
+    expectRefused({"present.frag", "1 MiB"});
 }
 
 TEST_F(Shaders, thatLackAUniformNameIt) {

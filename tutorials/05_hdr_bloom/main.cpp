@@ -114,14 +114,14 @@ class HdrBloom final : public Rung {
     void composite(Frame& frame) {
         const Program& program = shaders_.fullScreen(
             "lib/present.frag", options_.display.defines() + Defines{{"BLOOM", options_.bloom ? "1" : "0"}});
-        std::vector<UniformSetting> uniforms = options_.display.uniforms();
+        std::vector<UniformSetting> uniforms = usedBy(program, options_.display.uniforms());
         std::vector<Input> inputs = {{"hdr", hdr_.color()}};
         if (options_.bloom) {
             inputs.push_back({"bloom", level(0).color()});
             uniforms.push_back({"intensity", options_.intensity});
         }
         frame.pass("composite", frame.presented(),
-                   {.program = program, .inputs = inputs, .uniforms = usedBy(program, uniforms)});
+                   {.program = program, .inputs = inputs, .uniforms = uniforms});
     }
     // end excerpt
 

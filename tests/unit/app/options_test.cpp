@@ -4,7 +4,9 @@
 #include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
 
 namespace gll::test {
 namespace {
@@ -103,6 +105,19 @@ TEST_F(OptionsTest, frameRangesHaveAnEndAndMayHaveAStep) {
     for (const char* text : {"3", "3..", "..9", "9..3", "0..3", "1..3:0", "1..3:", "1..3:-1", "1...3",
                              "1..3..5", "a..b", ":1..3"})
         EXPECT_NE(errorOf({"--frames", text}), "") << text;
+}
+
+TEST_F(OptionsTest, anInjectionIsAPassAPixelAndAnyFloat) {
+    const FrameRequest request = parse({"--inject", "scene:3,14:-inf", "--inject", "hdr:0,0:1e9"})->request;
+    ASSERT_EQ(request.injections.size(), 2U);
+    EXPECT_EQ(request.injections[0].name, "scene");
+    EXPECT_EQ(request.injections[0].pixel, glm::ivec2(3, 14));
+    EXPECT_EQ(request.injections[0].value, -std::numeric_limits<float>::infinity());
+    EXPECT_EQ(request.injections[1].value, 1e9F);
+    EXPECT_TRUE(std::isnan(parseInjection("a:1,2:nan").value));
+    for (const char* text : {"scene", "scene:1,2", "scene:1:2", "scene:1,2:", "scene:1,2:bright",
+                             "scene:-1,2:0", ":1,2:3", "scene:1,2,3:4", "::", ":", "scene:16384,0:1"})
+        EXPECT_NE(errorOf({"--inject", text}), "") << text;
 }
 
 TEST_F(OptionsTest, aCounterInTheNameIsFilledIn) {

@@ -101,6 +101,17 @@ TEST_F(TextureTest, floatFormatsKeepInfinityAndNotANumberForWhoeverChecksThem) {
     EXPECT_EQ(value.a, 65504);
 }
 
+TEST_F(TextureTest, oneTexelIsOverwrittenAndNoOther) {
+    const std::vector<float> pixels(3 * 2, 0.25F);
+    const Texture texture({.size = {3, 2}, .format = Format::r16f}, pixels);
+    texture.setTexel({2, 1}, std::nanf(""));
+    EXPECT_TRUE(std::isnan(pixelOf(texture, 2, 1).r));
+    EXPECT_EQ(pixelOf(texture, 1, 1).r, 0.25F);
+    EXPECT_EQ(pixelOf(texture, 2, 0).r, 0.25F);
+    EXPECT_THROW(texture.setTexel({3, 0}, 0), std::out_of_range);
+    EXPECT_THROW(texture.setTexel({0, -1}, 0), std::out_of_range);
+}
+
 TEST_F(TextureTest, srgbIsDecodedForTheShaderAndReadBackAsStored) {
     constexpr std::uint8_t stored[] = {188, 0, 255, 188};
     const Texture texture({.format = Format::srgb8_alpha8}, stored);
