@@ -21,7 +21,7 @@ const float haze_per_metre = 0.012;
 const vec3 asphalt = vec3(0.06, 0.06, 0.065);
 const vec3 mirrored_light = vec3(0.25, 0.19, 0.13); // on every wall of the mirror image
 
-vec3 litColor(vec3 position, vec3 normal, vec3 albedo) {
+vec3 lightOn(vec3 position, vec3 normal) {
     vec3 light = ambient;
     for (int i = 0; i < LIGHTS; ++i) {
         vec3 to_light = light_positions[i] - position;
@@ -29,7 +29,7 @@ vec3 litColor(vec3 position, vec3 normal, vec3 albedo) {
         float near = inversesqrt(squared);
         light += light_colors[i] * (max(dot(normal, to_light), 0.0) * near * near * near);
     }
-    return albedo * light;
+    return light;
 }
 
 // How much water lies on the asphalt, 0 to 1: waves of sine, bent by each other, so that no grid is seen.
@@ -47,14 +47,15 @@ float reflectance(vec3 ground, float cos_view) {
 }
 
 // Below the ground lies the street's mirror image, seen through the surface of the road. Its emitters are what
-// matters there; its walls have the same light everywhere, so that no pixel looks at the lamps twice.
+// matters there; its walls have the same light everywhere, so that a pixel looks at the lamps only once.
 vec3 seenColor() {
-    if (world_position.y >= 0.0) return emitted_color + litColor(world_position, world_normal, surface_albedo);
-    vec3 to_image = world_position - camera_position;
-    vec3 ground = camera_position + to_image * (camera_position.y / -to_image.y);
-    vec3 mirrored_color = emitted_color + mirrored_light * surface_albedo;
-    float cos_view = -to_image.y * inversesqrt(dot(to_image, to_image));
-    return litColor(ground, vec3(0.0, 1.0, 0.0), asphalt) + mirrored_color * reflectance(ground, cos_view);
+    vec3 to_point = world_position - camera_position;
+    bool mirrored = world_position.y < 0.0;
+    vec3 ground = camera_position + to_point * (camera_position.y / max(-to_point.y, 1e-4));
+    vec3 light = lightOn(mirrored ? ground : world_position, mirrored ? vec3(0.0, 1.0, 0.0) : world_normal);
+    if (!mirrored) return emitted_color + light * surface_albedo;
+    float cos_view = -to_point.y * inversesqrt(dot(to_point, to_point));
+    return light * asphalt + (emitted_color + mirrored_light * surface_albedo) * reflectance(ground, cos_view);
 }
 
 // excerpt: bright_pass

@@ -19,10 +19,26 @@ constexpr std::array quantiles = {0.0, 0.524, 1.282};
 constexpr double importance_sigma = 2.5; // texels at half resolution
 constexpr int importance_pairs = 5;
 
-// Drawn at half the resolution, a picture spreads by itself: the mean of two texels has a variance of 1/4
-// pixel^2, and the linear fetch that doubles the result one of 1/4 * 3/4 texel^2, four times as many
-// pixels^2.
-constexpr double half_resolution_variance = 0.25 + 0.75;
+// What one target pixel of half the resolution takes from the full one, pixels squared: its centre lies on a
+// corner of four pixels, and a texel of its offsets is two of theirs.
+double halvingVariance(const BlurTaps& taps) {
+    double sum = 0;
+    for (std::size_t i = 0; i < taps.offsets.size(); ++i) {
+        const double offset = 2.0 * taps.offsets[i];
+        const double share = offset + 0.5 - std::floor(offset + 0.5);
+        sum += (i == 0 ? 1 : 2) * taps.weights[i] * (offset * offset + share * (1 - share));
+    }
+    return sum;
+}
+
+// Of pairs of half-resolution passes, pixels squared, the mean of both directions. The first pass along the
+// row halves the resolution, and along the column it takes the mean of two pixels; the linear fetch that
+// doubles the result adds 1/4 * 3/4 of a texel squared.
+double halfResolutionVariance(const BlurTaps& taps, int pairs) {
+    const double across = halvingVariance(taps) + 4 * (pairs - 1) * variance(taps);
+    const double up = 0.25 + 4 * pairs * variance(taps);
+    return 0.5 * (across + up) + 0.75;
+}
 
 // The factor in [0, most] for which a rising function of it reaches the value; most where it does not.
 template <class Function>
@@ -50,12 +66,13 @@ BlurPlan importance(const BlurRequest& request) {
         return {.taps = importanceTaps(importance_sigma, request.corrected_offsets),
                 .pairs = request.iterations,
                 .half_resolution = true};
-    // A half-resolution texel is two pixels.
-    const double wanted = std::max(request.sigma * request.sigma - half_resolution_variance, 0.0) / 4;
-    const int count = std::clamp(static_cast<int>(std::ceil(wanted / (importance_sigma * importance_sigma))),
-                                 importance_pairs, most_pairs);
-    const double sigma = solve(wanted / count, 2 * importance_sigma,
-                               [](double s) { return variance(importanceTaps(s, true)); });
+    const double wanted = request.sigma * request.sigma;
+    const double pairs =
+        std::ceil((wanted - 1) / (4 * importance_sigma * importance_sigma)); // a texel is two pixels
+    const int count = std::clamp(static_cast<int>(pairs), importance_pairs, most_pairs);
+    const double sigma = solve(wanted, 2 * importance_sigma, [count](double s) {
+        return halfResolutionVariance(importanceTaps(s, true), count);
+    });
     return {.taps = importanceTaps(sigma, true), .pairs = count, .half_resolution = true};
 }
 

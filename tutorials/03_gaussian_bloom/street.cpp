@@ -309,13 +309,12 @@ StreetLights streetLightsAt(float time_s) {
         lights.positions.push_back(position);
         lights.colors.push_back(color * intensity);
     };
-    for (std::size_t i = 0; i < lamp_z.size(); ++i)
+    for (std::size_t i = 0; i < 3; ++i) // the fourth is far away
         add(lampAt(i) - glm::vec3(0, 0.2F, 0), lamp_color, 16);
     add({-5.0F, 8.0F, -7}, pink, 9);
     add({4.8F, 9.2F, -12}, cyan, 10);
     add({4.9F, 2.4F, -3.7F}, blue, 2.5F);
-    add({3.5F, 4.6F, -3.4F}, lamp_color, 5);          // the brightest lanterns
-    add({-3.6F, 0.7F, -3.6F}, {1, 0.1F, 0.1F}, 0.5F); // the nearer car's tail lights
+    add({3.5F, 4.6F, -3.4F}, lamp_color, 5); // the brightest lanterns
     add(ring_center + glm::vec3(0, 0, 2), amber, 14 * pulseAt(time_s));
     return lights;
 }

@@ -14,7 +14,7 @@ struct StreetLights {
     std::vector<glm::vec3> colors;
 };
 
-inline constexpr int street_light_count = 10;
+inline constexpr int street_light_count = 8;
 
 // The street along -z between houses, and once more mirrored in the ground (y = 0): what wet asphalt shows.
 // Locations 0: position, 1: normal, of the mirrored half as before mirroring, 2: albedo, 3: emitted light,
