@@ -44,8 +44,8 @@ TEST(GaussianKernels, weighOneInAllAndHaveTheVarianceTheyAreAskedFor) {
     for (const double sigma : {0.7, 1.0, 2.5, 3.78, 11.18, 32.0}) {
         const std::vector<double> kernel = gaussianKernel(sigma);
         EXPECT_NEAR(sumOf(kernel), 1, 1e-12) << sigma;
-        EXPECT_NEAR(variance(kernel) / (sigma * sigma), 1, 0.0012)
-            << sigma;                                     // beyond 4 sigma lies 0.11 % of it
+        // Beyond 4 sigma lies 0.11 % of it; a bell narrower than a texel lies oddly on the grid.
+        EXPECT_NEAR(variance(kernel) / (sigma * sigma), 1, sigma < 1 ? 0.003 : 0.0012) << sigma;
         for (std::size_t i = 0; i < kernel.size(); ++i) { // the area under a bell of that width
             const double x = static_cast<double>(i) / sigma;
             const double expected = std::exp(-x * x / 2) / (sigma * std::sqrt(2 * std::numbers::pi));
@@ -443,6 +443,24 @@ TEST_F(GaussianBloomFrames, ofTheBrightTargetHoldWhatIsAboveTheThresholdAndNothi
     }
     EXPECT_GT(kept, 1000);
     EXPECT_LT(kept, 10000);
+}
+
+TEST_F(GaussianBloomFrames, inElevenBitsLoseLightWithEveryPassAndMostOfItInBlue) {
+    const Plane wide = read("ping_pong_9tap0.exr");
+    const Plane small = read("small_blurred.exr");
+    glm::dvec3 wide_sum(0);
+    glm::dvec3 small_sum(0);
+    for (std::size_t i = 0; i < wide.pixels.size(); ++i) {
+        wide_sum += wide.pixels[i];
+        small_sum += small.pixels[i];
+    }
+    const glm::dvec3 kept = small_sum / wide_sum;
+    std::printf("r11f_g11f_b10f after ten passes: %.4f of red, %.4f of green, %.4f of blue\n", kept.r, kept.g,
+                kept.b);
+    EXPECT_NEAR(kept.r, 1, 0.2);
+    EXPECT_NEAR(kept.g, 1, 0.2);
+    EXPECT_NEAR(kept.b, 1, 0.3);
+    EXPECT_GE(std::abs(1 - kept.b), std::abs(1 - kept.r)); // five bits of mantissa against six
 }
 
 TEST_F(GaussianBloomFrames, areSceneAndBlurredLightAddedToneMappedAndEncoded) {
