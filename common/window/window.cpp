@@ -329,6 +329,7 @@ class RungWindow {
         file("--mesh", given_.mesh);
         file("--floor", given_.floor);
         file("--environment", given_.environment);
+        file("--image", given_.image);
         return line + " --out " + out.string();
     }
 

@@ -169,6 +169,29 @@ TEST_F(HdrTruth, theDividerShowsOneMethodLeftAndTheOtherRight) {
         }
 }
 
+TEST_F(HdrTruth, aPictureOfOnesOwnIsDrawnAsItIsAndLargerOrSmallerAboutItsMiddle) {
+    const auto render = [&](const char* size, const char* file) {
+        test::runToSuccess({rung_program,
+                            {"--image", (*folder / "rgba16f.exr").string(), "--target", "hdr", "--size", size,
+                             "--out", (*folder / file).string()}});
+        return loadImage(*folder / file);
+    };
+    render("160x120", "same.exr");
+    EXPECT_EQ(read("same.exr"), read("rgba16f.exr"));
+    // Half as wide at the same height: the middle half, pixel by pixel.
+    const Image narrow = render("80x120", "narrow.exr");
+    const Image whole = loadImage(*folder / "rgba16f.exr");
+    const auto& narrow_values = std::get<std::vector<float>>(narrow.pixels);
+    const auto& values = std::get<std::vector<float>>(whole.pixels);
+    for (std::size_t y = 0; y < 120; ++y)
+        for (std::size_t x = 0; x < 80; ++x) {
+            const float expected = values[(y * 160 + x + 40) * static_cast<std::size_t>(whole.channels)];
+            ASSERT_NEAR(narrow_values[(y * 80 + x) * static_cast<std::size_t>(narrow.channels)], expected,
+                        1e-3F + 2e-3F * expected)
+                << x << "," << y;
+        }
+}
+
 // Each band has one colour, the colour of every pixel within that stop, but for the white stripes on what
 // clips.
 TEST_F(HdrTruth, falseColoursAreBandsOfAStopAndStripesWhereTheDisplayEnds) {

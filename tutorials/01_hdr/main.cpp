@@ -4,6 +4,7 @@
 #include "01_hdr/boxes.hpp"
 #include "01_hdr/tone_map.hpp"
 #include "app/camera.hpp"
+#include "app/scene_image.hpp"
 #include "run/run.hpp"
 
 #include <cmath>
@@ -74,7 +75,8 @@ class Hdr final : public Rung {
   public:
     using Options = HdrOptions;
 
-    Hdr(RungResources resources, const Options& options) : shaders_(resources.shaders), options_(options) {}
+    Hdr(RungResources resources, const Options& options)
+        : shaders_(resources.shaders), options_(options), image_(shaders_, resources.given.image) {}
 
     void render(Frame& frame) override {
         drawScene(frame, "scene", target("hdr", options_.format.name(), frame.size()));
@@ -107,6 +109,7 @@ class Hdr final : public Rung {
 
     // excerpt: scene
     void drawScene(Frame& frame, const std::string& pass, const Framebuffer& target) {
+        if (image_) return image_.draw(frame, pass, target);
         const float time_s = frame.time_s();
         const float sway = std::sin(time_s * 0.4F);
         const Camera camera = options_.orbit.apply({.position = {0.9F * sway, 1.75F, 11.2F},
@@ -177,6 +180,7 @@ class Hdr final : public Rung {
 
     ShaderLibrary& shaders_;
     const Options& options_;
+    SceneImage image_; // --image
     Mesh hall_ = makeHall();
     std::map<std::string, std::unique_ptr<Framebuffer>> targets_;
 };
@@ -184,7 +188,8 @@ class Hdr final : public Rung {
 } // namespace
 
 int main(int argc, char** argv) {
-    return gll::run<Hdr>(
-        argc, argv,
-        {.name = "01_hdr", .summary = "A dark hall, a bright window: HDR targets and tone maps."});
+    return gll::run<Hdr>(argc, argv,
+                         {.name = "01_hdr",
+                          .summary = "A dark hall, a bright window: HDR targets and tone maps.",
+                          .takes_image = true});
 }
