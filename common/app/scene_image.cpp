@@ -53,16 +53,21 @@ SceneImage::SceneImage(ShaderLibrary& shaders, const std::filesystem::path& path
     if (!path.empty()) picture_.emplace(loadTexture(path));
 }
 
-void SceneImage::draw(Frame& frame, const std::string& pass, const Framebuffer& target) const {
+void SceneImage::draw(Frame& frame, const std::string& pass, const Framebuffer& target,
+                      const std::string& fragment_file, const Defines& defines,
+                      const std::vector<UniformSetting>& uniforms) const {
     const glm::vec2 from = picture_->size();
     const glm::vec2 to = target.size();
     const float scale = std::min(from.x / to.x, from.y / to.y); // picture texels to a target pixel
     const bool same_size = picture_->size() == target.size();
-    const Program& program = shaders_.fullScreen("lib/image.frag", {{"SAME_SIZE", same_size ? "1" : "0"}});
+    const Program& program =
+        shaders_.fullScreen(fragment_file, defines + Defines{{"SAME_SIZE", same_size ? "1" : "0"}});
+    std::vector<UniformSetting> all = usedBy(program, {{"uv_scale", to * scale / from}});
+    all.insert(all.end(), uniforms.begin(), uniforms.end());
     frame.pass(pass, target,
                {.program = program,
                 .inputs = {{"picture", *picture_}},
-                .uniforms = usedBy(program, {{"uv_scale", to * scale / from}}),
+                .uniforms = all,
                 .clear_depth = target.hasDepth() ? std::optional(1.0F) : std::nullopt});
 }
 

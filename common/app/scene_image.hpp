@@ -17,8 +17,11 @@ class SceneImage {
     explicit operator bool() const { return picture_.has_value(); }
 
     // Draws the picture's linear light over the whole target: pixel by pixel where the sizes agree, else
-    // scaled to cover it about the middle, its proportions kept.
-    void draw(Frame& frame, const std::string& pass, const Framebuffer& target) const;
+    // scaled to cover it about the middle, its proportions kept. A rung that makes more of it than one colour
+    // names a fragment file of its own, which includes lib/image.glsl, and what that needs.
+    void draw(Frame& frame, const std::string& pass, const Framebuffer& target,
+              const std::string& fragment_file = "lib/image.frag", const Defines& defines = {},
+              const std::vector<UniformSetting>& uniforms = {}) const;
 
   private:
     ShaderLibrary& shaders_;

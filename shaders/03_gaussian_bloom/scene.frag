@@ -1,6 +1,6 @@
 #version 330 core
 // Light on the street, and what of it is bright enough to bloom: two targets from one pass.
-#include "lib/luminance.glsl"
+#include "03_gaussian_bloom/bright_pass.glsl"
 
 in vec3 world_position;
 flat in vec3 world_normal;
@@ -10,10 +10,6 @@ in vec3 emitted_color; // linear
 uniform vec3 camera_position;          // world, above the ground
 uniform vec3 light_positions[LIGHTS];  // world
 uniform vec3 light_colors[LIGHTS];     // linear, radiant intensity
-uniform float threshold;               // luminance
-
-layout(location = 0) out vec4 hdr_color;    // linear, [0, 65504]
-layout(location = 1) out vec4 bright_color; // the same where it is bright, else black
 
 const vec3 ambient = vec3(0.010, 0.012, 0.022);
 const vec3 haze_color = vec3(0.010, 0.012, 0.024); // the sky's at the horizon
@@ -58,20 +54,8 @@ vec3 seenColor() {
     return light * asphalt + (emitted_color + mirrored_light * surface_albedo) * reflectance(ground, cos_view);
 }
 
-// excerpt: bright_pass
-bool isBright(float luma) {
-#if BRIGHT_PASS == BRIGHT_PASS_FIXED
-    return luma > threshold;
-#elif BRIGHT_PASS == BRIGHT_PASS_WHITE_POINT
-    return luma >= threshold;
-#endif
-}
-
 void main() {
     vec3 color = seenColor();
     color = mix(haze_color, color, exp(-haze_per_metre * distance(world_position, camera_position)));
-
-    hdr_color = vec4(min(color, 65504.0), 1.0);
-    bright_color = vec4(isBright(luminance(color)) ? hdr_color.BRIGHT_CHANNELS : vec3(0.0), 1.0);
+    writeTargets(color);
 }
-// end excerpt

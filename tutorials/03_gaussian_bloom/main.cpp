@@ -3,6 +3,7 @@
 // mapping.
 #include "01_hdr/tone_map.hpp"
 #include "app/camera.hpp"
+#include "app/scene_image.hpp"
 #include "gaussian_blur.hpp"
 #include "run/run.hpp"
 #include "street.hpp"
@@ -50,7 +51,7 @@ class GaussianBloom final : public Rung {
     using Options = GaussianBloomOptions;
 
     GaussianBloom(RungResources resources, const Options& options)
-        : shaders_(resources.shaders), options_(options) {}
+        : shaders_(resources.shaders), options_(options), image_(shaders_, resources.given.image) {}
 
     // excerpt: render
     void render(Frame& frame) override {
@@ -94,6 +95,9 @@ class GaussianBloom final : public Rung {
                                     : options_.threshold_multiple * options_.display.white_point;
         const Defines defines = {{"LIGHTS", std::to_string(street_light_count)},
                                  {"BRIGHT_CHANNELS", options_.swizzle == "as_printed" ? "rbg" : "rgb"}};
+        if (image_)
+            return image_.draw(frame, "scene", *scene_, "03_gaussian_bloom/image.frag",
+                               options_.bright_pass.defines() + defines, {{"threshold", threshold}});
         frame.pass(
             "scene", *scene_,
             {.program = shaders_.program("03_gaussian_bloom/scene.vert", "03_gaussian_bloom/scene.frag",
@@ -138,6 +142,7 @@ class GaussianBloom final : public Rung {
 
     ShaderLibrary& shaders_;
     const Options& options_;
+    SceneImage image_; // --image
     Mesh street_ = makeStreet();
     std::optional<Framebuffer> scene_; // made when the format is known
     std::optional<GaussianBlur> blur_;
@@ -149,5 +154,6 @@ int main(int argc, char** argv) {
     return gll::run<GaussianBloom>(
         argc, argv,
         {.name = "03_gaussian_bloom",
-         .summary = "A street at night: bright pass as a second target, Gaussian blurs."});
+         .summary = "A street at night: bright pass as a second target, Gaussian blurs.",
+         .takes_image = true});
 }

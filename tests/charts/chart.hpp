@@ -1,0 +1,49 @@
+// A chart of cost against error: its table as CSV and its picture as SVG, drawn by gnuplot.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gll::charts {
+
+// One setting of a method: a point. Points of one method that follow each other are joined, in the order of
+// its dial.
+struct Point {
+    std::string method;    // "13 taps down, tent up"
+    std::string dial;      // "levels 5"; empty where the method has none
+    double cost = 0;       // x
+    double error = 0;      // y
+    std::string mark = {}; // "seed 001", "recommended": named in the chart; else empty
+};
+
+struct Axes {
+    std::string title;
+    std::string x; // with its unit
+    std::string y;
+    bool log_y = false; // errors of 0 are then drawn at the bottom, as "at most"
+    double floor = 0;   // the bottom of a logarithmic axis
+};
+
+// Whether no other point is at once as cheap and as accurate, and better in one of the two.
+std::vector<bool> paretoFront(const std::vector<Point>& points);
+
+// Writes FILE (.svg): methods by the shape of their points, the front black and joined by a step line,
+// dominated points grey. The same points give the same bytes. Throws std::runtime_error where gnuplot cannot
+// be run.
+void drawChart(const std::filesystem::path& file, const Axes& axes, const std::vector<Point>& points);
+
+// A table to write as CSV, numbers in few digits so that the last bit of a float does not change a committed
+// file.
+struct Table {
+    std::vector<std::string> columns;
+    std::vector<std::vector<std::string>> rows;
+};
+void writeCsv(const std::filesystem::path& file, const Table& table);
+// Throws std::runtime_error where it cannot be read or a row has another number of cells.
+Table readCsv(const std::filesystem::path& file);
+
+// Three significant digits, never "-0".
+std::string shortNumber(double value);
+
+} // namespace gll::charts

@@ -1,0 +1,73 @@
+// Batches for rungs, and what comes back of them.
+#include "charts/frames.hpp"
+
+#include "io/image.hpp"
+#include "support/process.hpp"
+
+#include <cstdio>
+#include <sstream>
+#include <unistd.h>
+
+namespace gll::charts {
+
+std::size_t Frames::ask(const Set& set, glm::ivec2 size, const std::string& target, const std::string& inject,
+                        int frame) {
+    nlohmann::json line{{"set", set},
+                        {"size", std::to_string(size.x) + "x" + std::to_string(size.y)},
+                        {"frame", frame},
+                        {"target", target},
+                        {"out", file(count_).string()}};
+    if (!inject.empty()) line["inject"] = inject;
+    lines_ += line.dump() + "\n";
+    return count_++;
+}
+
+void Frames::run() {
+    std::vector<std::string> arguments = {"--context", "osmesa", "--batch",
+                                          folder_.write("batch.jsonl", lines_).string()};
+    arguments.insert(arguments.end(), arguments_.begin(), arguments_.end());
+    test::runToSuccess({rung_, arguments}, std::chrono::minutes(20));
+}
+
+truth::ColorImage Frames::read(std::size_t number) const {
+    const Image image = loadImage(file(number));
+    truth::requireFinite(image, rung_.filename().string() + ", frame " + std::to_string(number));
+    return truth::linearColor(image);
+}
+
+std::vector<nlohmann::json> costs(const std::filesystem::path& rung, const std::vector<Set>& sets,
+                                  glm::ivec2 size) {
+    std::string lines;
+    for (const Set& set : sets)
+        lines += nlohmann::json{{"cost", true},
+                                {"set", set},
+                                {"size", std::to_string(size.x) + "x" + std::to_string(size.y)}}
+                     .dump() +
+                 "\n";
+    const test::TemporaryFolder folder;
+    const test::Result result =
+        test::runToSuccess({rung,
+                            {"--context", "osmesa", "--counter", "callgrind", "--json", "--batch",
+                             folder.write("batch.jsonl", lines).string()}},
+                           std::chrono::minutes(60));
+    std::vector<nlohmann::json> reports;
+    std::istringstream stream(result.out);
+    for (std::string line; std::getline(stream, line);)
+        reports.push_back(nlohmann::json::parse(line));
+    return reports;
+}
+
+void writeExr(const std::filesystem::path& file, const truth::ColorImage& image) {
+    std::vector<float> values;
+    for (const glm::dvec3& color : image.pixels)
+        for (int c = 0; c < 3; ++c)
+            values.push_back(static_cast<float>(color[c]));
+    saveImage(file,
+              {.width = image.width, .height = image.height, .channels = 3, .pixels = std::move(values)});
+}
+
+void sayProgress(const std::string& what) {
+    if (isatty(fileno(stderr)) != 0) std::fprintf(stderr, "\r%s\033[K", what.c_str());
+}
+
+} // namespace gll::charts
