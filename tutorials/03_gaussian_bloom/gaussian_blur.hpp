@@ -52,8 +52,8 @@ struct BlurPlan {
 };
 
 struct BlurRequest {
-    std::string_view
-        method; // "ping_pong_9tap", "ping_pong_5fetch", "half_resolution_5tap", "mipmap", "wide_gaussian"
+    // "ping_pong_9tap", "ping_pong_5fetch", "half_resolution_5tap", "mipmap" or "wide_gaussian"
+    std::string_view method;
     double sigma = 0;              // pixels of the frame; 0: the method's own width
     int iterations = 5;            // pairs of passes where sigma is 0; wide_gaussian has one
     bool corrected_offsets = true; // of half_resolution_5tap where sigma is 0
