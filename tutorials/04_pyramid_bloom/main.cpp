@@ -5,6 +5,7 @@
 #include "04_pyramid_bloom/harbour.hpp"
 #include "04_pyramid_bloom/pyramid_bloom.hpp"
 #include "app/camera.hpp"
+#include "app/scene_image.hpp"
 #include "run/run.hpp"
 
 #include <cmath>
@@ -46,7 +47,8 @@ class PyramidBloomRung final : public Rung {
     using Options = PyramidOptions;
 
     PyramidBloomRung(RungResources resources, const Options& options)
-        : shaders_(resources.shaders), options_(options), bloom_(resources.shaders) {}
+        : shaders_(resources.shaders), options_(options), image_(shaders_, resources.given.image),
+          bloom_(shaders_) {}
 
     // excerpt: frame
     void render(Frame& frame) override {
@@ -66,6 +68,7 @@ class PyramidBloomRung final : public Rung {
   private:
     // excerpt: scene
     void drawScene(Frame& frame) {
+        if (image_) return image_.draw(frame, "scene", hdr_);
         const float sway_m = 2.5F * std::sin(0.25F * frame.time_s());
         const Camera camera = options_.orbit.apply({.position = {sway_m, 7, 42},
                                                     .target = {0, 9, -60},
@@ -82,24 +85,23 @@ class PyramidBloomRung final : public Rung {
                    {.program = shaders_.fullScreen("04_pyramid_bloom/sky.frag"),
                     .uniforms = {{"world_from_clip", glm::inverse(clip_from_world)}, eye},
                     .clear_depth = 1.0F});
-        frame.pass("houses", hdr_,
-                   {.program = shaders_.program("04_pyramid_bloom/box.vert", "04_pyramid_bloom/box.frag"),
+        frame.pass("walls", hdr_,
+                   {.program = shaders_.program("04_pyramid_bloom/wall.vert", "04_pyramid_bloom/wall.frag"),
                     .uniforms = {{"clip_from_world", clip_from_world}, eye, time},
-                    .mesh = &boxes_.mesh,
-                    .instances = boxes_.count,
+                    .mesh = &walls_.mesh,
+                    .instances = walls_.count,
                     .depth_test = DepthTest::less_equal,
                     .cull = Cull::back});
-        frame.pass(
-            "lamps", hdr_,
-            {.program = shaders_.program("04_pyramid_bloom/stroke.vert", "04_pyramid_bloom/stroke.frag"),
-             .uniforms = {{"clip_from_world", clip_from_world},
-                          {"size", glm::vec2(frame.size())},
-                          {"pixels_per_m", pixels_per_m},
-                          time},
-             .mesh = &strokes_.mesh,
-             .instances = strokes_.count,
-             .depth_test = DepthTest::less_equal,
-             .blend = Blend::add});
+        frame.pass("lamps", hdr_,
+                   {.program = shaders_.program("04_pyramid_bloom/lamp.vert", "04_pyramid_bloom/lamp.frag"),
+                    .uniforms = {{"clip_from_world", clip_from_world},
+                                 {"size", glm::vec2(frame.size())},
+                                 {"pixels_per_m", pixels_per_m},
+                                 time},
+                    .mesh = &lamps_.mesh,
+                    .instances = lamps_.count,
+                    .depth_test = DepthTest::less_equal,
+                    .blend = Blend::add});
     }
     // end excerpt
 
@@ -151,20 +153,22 @@ class PyramidBloomRung final : public Rung {
 
     ShaderLibrary& shaders_;
     const Options& options_;
+    SceneImage image_; // --image
     Framebuffer hdr_{{{.name = "hdr", .format = Format::rgba16f},
                       {.name = "depth", .format = Format::depth24, .filter = Filter::nearest}},
                      {1, 1}};
     Framebuffer lit_{{{.name = "lit", .format = Format::rgba16f}}, {1, 1}}; // scene and bloom
     PyramidBloom bloom_;
-    Boxes boxes_ = makeBoxes();
-    Strokes strokes_ = makeStrokes();
+    Instances walls_ = makeWalls();
+    Instances lamps_ = makeLamps();
     Mesh square_ = makeSquare();
 };
 
 } // namespace
 
 int main(int argc, char** argv) {
-    return gll::run<PyramidBloomRung>(
-        argc, argv,
-        {.name = "04_pyramid_bloom", .summary = "A harbour at night: bloom by a pyramid of blurred levels."});
+    return gll::run<PyramidBloomRung>(argc, argv,
+                                      {.name = "04_pyramid_bloom",
+                                       .summary = "A harbour at night: bloom by a pyramid of blurred levels.",
+                                       .takes_image = true});
 }
