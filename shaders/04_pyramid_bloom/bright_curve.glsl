@@ -8,7 +8,8 @@ uniform float knee;      // half the width of the soft step about the threshold,
 const float brightest_level = 8188.0;
 const float largest_float = 3.402823e38;
 
-// One value that is infinite or not a number would spread over the whole pyramid: such, and negative ones, count as dark.
+// One infinite value, or one that is no number, would spread over the whole pyramid. Such count as dark, and so do
+// negative ones.
 bool isLight(float luma) { return luma >= 0.0 && luma <= largest_float; }
 
 // excerpt: bright_curve

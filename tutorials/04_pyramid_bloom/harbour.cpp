@@ -18,7 +18,7 @@ using glm::vec2;
 using glm::vec3;
 
 // A number in [0, 1) for each n: the finalizer of MurmurHash3 (Appleby), the same everywhere.
-float random(std::uint32_t n) {
+float hashed(std::uint32_t n) {
     n ^= n >> 16U;
     n *= 0x85ebca6bU;
     n ^= n >> 13U;
@@ -52,13 +52,13 @@ std::vector<House> houses() {
     for (int row = 0; row < 3; ++row) {
         const auto back = static_cast<float>(row);
         for (float x = -92 - 12 * back; x < 92 + 12 * back;) {
-            const float width = 6 + 7 * random(n++);
+            const float width = 6 + 7 * hashed(n++);
             // Towers in the middle, low houses towards the ends.
             const float middle = std::exp(-(x * x) / (45 * 45));
-            const float storeys = random(n++);
-            const float height = 5 + 6 * storeys + (6 + 9 * back) * random(n++) * (0.3F + 1.4F * middle);
+            const float storeys = hashed(n++);
+            const float height = 5 + 6 * storeys + (6 + 9 * back) * hashed(n++) * (0.3F + 1.4F * middle);
             all.push_back({x + width / 2, width, height, -92 - 22 * back, 12});
-            x += width + (random(n++) < 0.25F ? 4.0F : 0.6F);
+            x += width + (hashed(n++) < 0.25F ? 4.0F : 0.6F);
         }
     }
     return all;
@@ -75,13 +75,12 @@ vec3 onDeck(float along) { return bridge_from + (bridge_to - bridge_from) * alon
 
 // Height of the main cable: a parabola from tower to tower, and half of one to either end.
 float cableHeight(float along) {
-    const float span = tower_places[1] - tower_places[0];
-    const float t = along < tower_places[0]   ? 1 - (tower_places[0] - along) / tower_places[0]
-                    : along > tower_places[1] ? 1 - (along - tower_places[1]) / (1 - tower_places[1])
-                                              : 0;
-    if (t != 0) return bridge_from.y + 1 + (tower_height - bridge_from.y - 1) * t * t;
-    const float s = (along - tower_places[0]) / span * 2 - 1;
-    return bridge_from.y + 1.5F + (tower_height - bridge_from.y - 1.5F) * s * s;
+    const float rise = along < tower_places[0]   ? along / tower_places[0]
+                       : along > tower_places[1] ? (1 - along) / (1 - tower_places[1])
+                                                 : (2 * along - tower_places[0] - tower_places[1]) /
+                                                       (tower_places[1] - tower_places[0]);
+    const float lowest = bridge_from.y + 1.5F;
+    return lowest + (tower_height - lowest) * rise * rise;
 }
 
 // --- strokes ---
@@ -91,9 +90,9 @@ struct Stroke {
     vec3 b;
     vec3 color;
     float radius = 0.2F;
-    float pulse_s = 0;
+    float period_s = 0; // of its pulse; negative: of its travel, without a pulse
     float phase = 0;
-    float mirror = 0;
+    float is_streak = 0; // 0 or 1
     vec3 travel{0};
 };
 
@@ -111,8 +110,7 @@ class Lights {
         streak.b.y = -2.1F * height;
         streak.radius = std::max(1.2F * stroke.radius, 0.12F);
         streak.color *= stroke.radius / streak.radius * stroke.radius / (0.15F * height + stroke.radius);
-        streak.mirror = 1;
-        streak.travel.y = -streak.travel.y;
+        streak.is_streak = 1;
         all.push_back(streak);
     }
     void lamp(vec3 place, vec3 color, float radius, bool over_water = true) {
@@ -143,21 +141,21 @@ void addBridgeLights(Lights& lights) {
                      .b = {foot.x, tower_height + 1, foot.z},
                      .color = 60.0F * red,
                      .radius = 0.3F,
-                     .pulse_s = 4,
+                     .period_s = 4,
                      .phase = 0.6F},
                     false);
     }
     constexpr int cars = 9;
     for (int i = 0; i < cars; ++i) {
         const float phase =
-            (static_cast<float>(i) + 0.6F * random(500U + static_cast<std::uint32_t>(i))) / cars;
+            (static_cast<float>(i) + 0.6F * hashed(500U + static_cast<std::uint32_t>(i))) / cars;
         const bool coming = i % 2 == 0;
         const vec3 start = (coming ? bridge_to : bridge_from) + vec3(0, 0.6F, coming ? 0.8F : -0.8F);
         lights.lamp({.a = start,
                      .b = start,
                      .color = coming ? 34.0F * vec3(1, 0.93F, 0.8F) : 14.0F * red,
                      .radius = 0.16F,
-                     .pulse_s = -24, // travels, and does not pulse
+                     .period_s = -24,
                      .phase = phase,
                      .travel = coming ? bridge_from - bridge_to : bridge_to - bridge_from},
                     false);
@@ -191,9 +189,9 @@ void addSign(Lights& lights, vec3 place, float unit) {
 
 void addStars(Lights& lights) {
     for (std::uint32_t i = 0; i < 90; ++i) {
-        const float around = (random(3 * i + 9000) - 0.5F) * 1.9F;
-        const float up = 0.10F + 0.55F * random(3 * i + 9001);
-        const float faint = random(3 * i + 9002);
+        const float around = (hashed(3 * i + 9000) - 0.5F) * 1.9F;
+        const float up = 0.10F + 0.55F * hashed(3 * i + 9001);
+        const float faint = hashed(3 * i + 9002);
         lights.lamp(400.0F * glm::normalize(vec3(std::sin(around), up, -std::cos(around))),
                     (0.4F + 5.0F * faint * faint * faint * faint) * vec3(0.75F, 0.85F, 1.0F), 0.35F, false);
     }
@@ -201,7 +199,7 @@ void addStars(Lights& lights) {
 
 } // namespace
 
-Boxes makeBoxes() {
+Instances makeWalls() {
     std::vector<BoxVertex> vertices;
     std::vector<std::uint32_t> indices;
     for (int axis = 0; axis < 3; ++axis)
@@ -260,7 +258,7 @@ Boxes makeBoxes() {
             static_cast<int>(boxes.size())};
 }
 
-Strokes makeStrokes() {
+Instances makeLamps() {
     Lights lights;
     addStars(lights);
     addBridgeLights(lights);
@@ -273,7 +271,7 @@ Strokes makeStrokes() {
                  .b = {25, 12.2F, -20.8F},
                  .color = vec3(1.0F, 0.9F, 0.7F) * 60.0F,
                  .radius = 0.34F,
-                 .pulse_s = 8,
+                 .period_s = 8,
                  .phase = 0.875F});
 
     // Strokes write depth: the farthest first, along the way that the camera looks, then none hides another's

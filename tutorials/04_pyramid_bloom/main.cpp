@@ -48,7 +48,7 @@ class PyramidBloomRung final : public Rung {
 
     PyramidBloomRung(RungResources resources, const Options& options)
         : shaders_(resources.shaders), options_(options), image_(shaders_, resources.given.image),
-          bloom_(resources.shaders) {}
+          bloom_(shaders_) {}
 
     // excerpt: frame
     void render(Frame& frame) override {
@@ -85,24 +85,23 @@ class PyramidBloomRung final : public Rung {
                    {.program = shaders_.fullScreen("04_pyramid_bloom/sky.frag"),
                     .uniforms = {{"world_from_clip", glm::inverse(clip_from_world)}, eye},
                     .clear_depth = 1.0F});
-        frame.pass("houses", hdr_,
-                   {.program = shaders_.program("04_pyramid_bloom/box.vert", "04_pyramid_bloom/box.frag"),
+        frame.pass("walls", hdr_,
+                   {.program = shaders_.program("04_pyramid_bloom/wall.vert", "04_pyramid_bloom/wall.frag"),
                     .uniforms = {{"clip_from_world", clip_from_world}, eye, time},
-                    .mesh = &boxes_.mesh,
-                    .instances = boxes_.count,
+                    .mesh = &walls_.mesh,
+                    .instances = walls_.count,
                     .depth_test = DepthTest::less_equal,
                     .cull = Cull::back});
-        frame.pass(
-            "lamps", hdr_,
-            {.program = shaders_.program("04_pyramid_bloom/stroke.vert", "04_pyramid_bloom/stroke.frag"),
-             .uniforms = {{"clip_from_world", clip_from_world},
-                          {"size", glm::vec2(frame.size())},
-                          {"pixels_per_m", pixels_per_m},
-                          time},
-             .mesh = &strokes_.mesh,
-             .instances = strokes_.count,
-             .depth_test = DepthTest::less_equal,
-             .blend = Blend::add});
+        frame.pass("lamps", hdr_,
+                   {.program = shaders_.program("04_pyramid_bloom/lamp.vert", "04_pyramid_bloom/lamp.frag"),
+                    .uniforms = {{"clip_from_world", clip_from_world},
+                                 {"size", glm::vec2(frame.size())},
+                                 {"pixels_per_m", pixels_per_m},
+                                 time},
+                    .mesh = &lamps_.mesh,
+                    .instances = lamps_.count,
+                    .depth_test = DepthTest::less_equal,
+                    .blend = Blend::add});
     }
     // end excerpt
 
@@ -160,8 +159,8 @@ class PyramidBloomRung final : public Rung {
                      {1, 1}};
     Framebuffer lit_{{{.name = "lit", .format = Format::rgba16f}}, {1, 1}}; // scene and bloom
     PyramidBloom bloom_;
-    Boxes boxes_ = makeBoxes();
-    Strokes strokes_ = makeStrokes();
+    Instances walls_ = makeWalls();
+    Instances lamps_ = makeLamps();
     Mesh square_ = makeSquare();
 };
 

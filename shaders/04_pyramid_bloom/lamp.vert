@@ -48,7 +48,8 @@ void main() {
     float length_px = length(a_to_b);
     vec2 along = length_px > 1e-3 ? a_to_b / length_px : vec2(1.0, 0.0);
     vec2 across = vec2(-along.y, along.x);
-    vec2 pixel = from_a + (corner.x > 0.0 ? a_to_b : vec2(0.0)) + (radius + 1.0) * (corner.x * along + corner.y * across);
+    vec2 end = from_a + (corner.x > 0.0 ? a_to_b : vec2(0.0));
+    vec2 pixel = end + (radius + 1.0) * (corner.x * along + corner.y * across);
     float depth = corner.x > 0.0 && streak.x == 0.0 ? b.z / b.w : a.z / a.w; // a streak lies as far as its lamp
     gl_Position = vec4(2.0 * pixel / size - 1.0, depth, 1.0);
 }

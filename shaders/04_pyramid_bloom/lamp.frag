@@ -1,11 +1,11 @@
 #version 330 core
 // The light of a stroke, smooth over a pixel at its edge; on water broken by ripples and fading.
 
-flat in vec2 from_a;
-flat in vec2 a_to_b;
-flat in float radius;
-flat in vec3 color;
-flat in vec2 streak;
+flat in vec2 from_a;  // a, in pixels from the bottom left
+flat in vec2 a_to_b;  // pixels
+flat in float radius; // pixels
+flat in vec3 color;   // linear
+flat in vec2 streak;  // x: 1 on the water; y: phase of its ripples
 
 uniform float time_s;
 
