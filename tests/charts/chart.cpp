@@ -150,10 +150,28 @@ Table readCsv(const std::filesystem::path& file) {
     return table;
 }
 
+Costs::Costs(std::filesystem::path csv) : file_(std::move(csv)), table_(readCsv(file_)) {}
+
+double Costs::of(const std::string& name, const std::string& column) const {
+    const auto place = std::find(table_.columns.begin(), table_.columns.end(), column);
+    for (const auto& row : table_.rows)
+        if (row[0] == name && place != table_.columns.end())
+            return std::stod(row[static_cast<std::size_t>(place - table_.columns.begin())]);
+    throw std::runtime_error(file_.string() + ": has no " + column + " of \"" + name +
+                             "\"; measure the costs anew");
+}
+
 std::string shortNumber(double value) {
     char buffer[40];
     std::snprintf(buffer, sizeof buffer, "%.3g", value == 0 ? 0.0 : value);
     return buffer;
+}
+
+std::string decimals(double value, int count) {
+    char buffer[400]; // the longest double has 309 digits before its point
+    std::snprintf(buffer, sizeof buffer, "%.*f", count, value);
+    const std::string text = buffer;
+    return text[0] == '-' && text.find_first_not_of("-0.") == std::string::npos ? text.substr(1) : text;
 }
 
 } // namespace gll::charts

@@ -43,7 +43,20 @@ void writeCsv(const std::filesystem::path& file, const Table& table);
 // Throws std::runtime_error where it cannot be read or a row has another number of cells.
 Table readCsv(const std::filesystem::path& file);
 
-// Three significant digits, never "-0".
+// A table of costs as a family's measure function wrote it: the first column names what was measured.
+class Costs {
+  public:
+    explicit Costs(std::filesystem::path csv);
+    // Throws std::runtime_error naming the file and what it lacks.
+    double of(const std::string& name, const std::string& column) const;
+
+  private:
+    std::filesystem::path file_;
+    Table table_;
+};
+
+// Numbers as tables have them, never "-0": three significant digits, or so many decimals.
 std::string shortNumber(double value);
+std::string decimals(double value, int count);
 
 } // namespace gll::charts
