@@ -25,8 +25,11 @@ struct StorageFormat {
     int bytes_per_pixel;
     std::string mark = {};
 };
-const std::vector<StorageFormat> formats = {
-    {"rgba8", 4}, {"rgb10_a2", 4}, {"r11f_g11f_b10f", 4}, {"rgba16f", 8, "seed 003"}, {"rgba32f", 16}};
+const std::vector<StorageFormat> formats = {{"rgba8", 4},
+                                            {"rgb10_a2", 4},
+                                            {"r11f_g11f_b10f", 4},
+                                            {"rgba16f", 8, "seed 003, recommended"},
+                                            {"rgba32f", 16}};
 
 // From linear light to what eight bits hold, 0 to 255.
 ColorImage codes(ColorImage image) {
@@ -66,26 +69,28 @@ void drawFormatCharts(const fs::path& programs, const fs::path& costs_csv, const
         dial += std::to_string(ev) + " EV";
         for (std::size_t i = 0; i < formats.size(); ++i) {
             const StorageFormat& format = formats[i];
+            const std::string mark = ev == 0 ? format.mark : "";
             const ColorImage frame = frames.read(first + i);
             const double code_error = truth::rmse(codes(frame), codes(reference));
             const double flip_error = truth::summary(truth::flip(frame, reference)).mean;
             table.rows.push_back({format.name, std::to_string(ev), std::to_string(format.bytes_per_pixel),
                                   decimals(costs.of(format.name, "cost_cu"), 2), shortNumber(code_error),
                                   shortNumber(flip_error), format.mark});
-            rmse.push_back({format.name, dial, double(format.bytes_per_pixel), code_error, format.mark});
-            flip.push_back({format.name, dial, double(format.bytes_per_pixel), flip_error, format.mark});
+            rmse.push_back({format.name, dial, double(format.bytes_per_pixel), code_error, mark});
+            flip.push_back({format.name, dial, double(format.bytes_per_pixel), flip_error, mark});
         }
         first += formats.size();
     }
     writeCsv(folder / "formats.csv", table);
     const std::string x = "bytes per pixel";
+    drawChart(folder / "formats.svg",
+              {"Formats: how far is the shown frame from the 32-bit one?", x, "RMSE, codes of 255", true,
+               0.01, true},
+              rmse);
     drawChart(
-        folder / "formats.svg",
-        {"Formats: how far is the shown frame from the 32-bit one?", x, "RMSE, codes of 255", true, 0.01},
-        rmse);
-    drawChart(folder / "formats_flip.svg",
-              {"Formats: what would a person see, against the 32-bit frame?", x, "mean FLIP", true, 1e-5},
-              flip);
+        folder / "formats_flip.svg",
+        {"Formats: what would a person see, against the 32-bit frame?", x, "mean FLIP", true, 1e-4, true},
+        flip);
 }
 
 } // namespace gll::charts

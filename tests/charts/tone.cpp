@@ -34,8 +34,10 @@ std::vector<Curve> curves() {
     std::vector<Curve> list = {{"clamp"}, {"reinhard", 4, "", "seed 003"}, {"reinhard_luminance"}};
     for (const int white_point : {1, 2, 4, 8, 16})
         list.push_back({"reinhard_extended", double(white_point), "white " + std::to_string(white_point)});
-    for (const char* name : {"exposure", "aces_narkowicz", "aces_hill", "pbr_neutral", "agx"})
+    for (const char* name : {"exposure", "aces_narkowicz", "aces_hill"})
         list.push_back({name});
+    list.push_back({"pbr_neutral", 4, "", "recommended"});
+    list.push_back({"agx"});
     return list;
 }
 
@@ -61,6 +63,7 @@ std::vector<glm::dvec3> colors() {
 constexpr int first_stop = -6;
 constexpr int last_stop = 8;
 
+// Each of them from six stops down to eight stops up.
 std::vector<glm::dvec3> sweep() {
     std::vector<glm::dvec3> list;
     for (const glm::dvec3& color : colors())
@@ -79,19 +82,14 @@ struct HueError {
 // ICtCp's hue depends a little on how much light there is, and a change of light is no turn of hue: the input
 // is compared at the luminance of the output. Colours that nobody could tell from a grey (delta E ITP below
 // 1, BT.2124) have no hue any more and are counted instead.
-HueError hueError(const Curve& curve) {
+HueError hueError(const std::vector<glm::dvec3>& scene, const std::vector<glm::dvec3>& display) {
     HueError error;
     int with_hue = 0;
-    int washed_out = 0;
-    for (const glm::dvec3& color : sweep()) {
-        const glm::dvec3 shown = curve(color);
-        const double luminance = truth::luminance709(shown);
-        if (truth::deltaEItp(truth::ictcp(shown), truth::ictcp(glm::dvec3(luminance))) < 1) {
-            ++washed_out;
-            continue;
-        }
+    for (std::size_t i = 0; i < scene.size(); ++i) {
+        const double luminance = truth::luminance709(display[i]);
+        if (truth::deltaEItp(truth::ictcp(display[i]), truth::ictcp(glm::dvec3(luminance))) < 1) continue;
         const truth::ColorDifference difference =
-            truth::colorDifference(color * (luminance / truth::luminance709(color)), shown);
+            truth::colorDifference(scene[i] * (luminance / truth::luminance709(scene[i])), display[i]);
         const double angle_deg = difference.ictcp_hue_deg.value();
         error.mean_deg += angle_deg;
         error.lab_mean_deg += difference.lab_hue_deg.value();
@@ -100,8 +98,14 @@ HueError hueError(const Curve& curve) {
     }
     error.mean_deg /= with_hue;
     error.lab_mean_deg /= with_hue;
-    error.washed_out = double(washed_out) / (with_hue + washed_out);
+    error.washed_out = 1 - with_hue / double(scene.size());
     return error;
+}
+
+std::vector<glm::dvec3> through(const Curve& curve, std::vector<glm::dvec3> colors) {
+    for (glm::dvec3& color : colors)
+        color = curve(color);
+    return colors;
 }
 
 struct AcesDistance {
@@ -182,7 +186,8 @@ void measureToneCosts(const fs::path& programs, const fs::path& costs_csv) {
 
 void drawToneCharts(const fs::path& /*programs*/, const fs::path& costs_csv, const fs::path& folder) {
     const Costs costs(costs_csv);
-    std::vector<glm::dvec3> scene = sweep();
+    const std::vector<glm::dvec3> colored = sweep();
+    std::vector<glm::dvec3> scene = colored;
     for (int stop = first_stop; stop <= last_stop; ++stop)
         scene.emplace_back(std::exp2(stop));
     std::vector<glm::dvec3> aces_itp;
@@ -196,7 +201,7 @@ void drawToneCharts(const fs::path& /*programs*/, const fs::path& costs_csv, con
                 {}};
     std::vector<Point> hue, aces;
     for (const Curve& curve : curves()) {
-        const HueError turned = hueError(curve);
+        const HueError turned = hueError(colored, through(curve, colored));
         const AcesDistance distance = acesDistance(curve, scene, aces_itp);
         const GreyScale grey = greyScale(curve);
         const double instructions = costs.of(curve.tone_map, "instructions_per_pixel");
@@ -211,6 +216,12 @@ void drawToneCharts(const fs::path& /*programs*/, const fs::path& costs_csv, con
         hue.push_back({curve.tone_map, curve.dial, instructions, turned.mean_deg, curve.mark});
         aces.push_back({curve.tone_map, curve.dial, instructions, distance.at_best, curve.mark});
     }
+    // What the fits are fits to: no program's tone map, so without a cost.
+    const HueError film = hueError(colored, truth::acesDisplayLight(colored));
+    table.rows.push_back({"ACES RRT + ODT", "", "", "", decimals(film.mean_deg, 2),
+                          decimals(film.largest_deg, 1), decimals(film.lab_mean_deg, 2),
+                          decimals(100 * film.washed_out, 1), "0.0", "0.0", "0.0", "", "", "", "", "",
+                          "the reference"});
     writeCsv(folder / "tone.csv", table);
     const std::string x = "instructions per pixel, over those of clamp";
     drawChart(folder / "tone_hue.svg",
