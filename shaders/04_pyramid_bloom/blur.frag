@@ -11,6 +11,7 @@ uniform float weights[TAPS]; // of either half
 
 out vec4 color;
 
+// excerpt: blur
 void main() {
     vec3 sum = centre_weight * texture(source, uv).rgb;
     for (int i = 0; i < TAPS; ++i) {
@@ -19,3 +20,4 @@ void main() {
     }
     color = vec4(sum, 1.0);
 }
+// end excerpt

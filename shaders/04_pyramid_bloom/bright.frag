@@ -19,11 +19,12 @@ vec3 tap(float x, float y) { return texture(source, uv + vec2(x, y) / vec2(textu
 vec3 brightColor() {
     vec3 centre = tap(0.0, 0.0);
     vec3 left = tap(-2.0, 0.0), right = tap(2.0, 0.0), below = tap(0.0, -2.0), above = tap(0.0, 2.0);
-    vec3 boxes[5] = vec3[5](tap(-1.0, -1.0) + tap(1.0, -1.0) + tap(-1.0, 1.0) + tap(1.0, 1.0),
-                            tap(-2.0, -2.0) + below + left + centre,
-                            below + tap(2.0, -2.0) + centre + right,
-                            left + centre + tap(-2.0, 2.0) + above,
-                            centre + right + above + tap(2.0, 2.0));
+    vec3 boxes[5];
+    boxes[0] = tap(-1.0, -1.0) + tap(1.0, -1.0) + tap(-1.0, 1.0) + tap(1.0, 1.0);
+    boxes[1] = tap(-2.0, -2.0) + below + left + centre;
+    boxes[2] = below + tap(2.0, -2.0) + centre + right;
+    boxes[3] = left + centre + tap(-2.0, 2.0) + above;
+    boxes[4] = centre + right + above + tap(2.0, 2.0);
     vec3 sum = vec3(0.0);
     float weights = 0.0;
     for (int i = 0; i < 5; ++i) {

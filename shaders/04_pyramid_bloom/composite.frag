@@ -9,7 +9,9 @@ uniform float strength;   // factor on the bloom, >= 0
 
 out vec4 color;
 
+// excerpt: composite
 void main() {
     vec4 original = texelFetch(source, ivec2(gl_FragCoord.xy), 0);
     color = vec4(original.rgb + texture(bloom, uv).rgb * strength, original.a);
 }
+// end excerpt

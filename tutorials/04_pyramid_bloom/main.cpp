@@ -1,6 +1,5 @@
-// 04_pyramid_bloom: a harbour at night whose lamps differ a thousandfold; what is bright goes down a pyramid
-// of ever smaller images, is blurred on every level, and comes up again as one glow that is both tight and
-// wide.
+// 04_pyramid_bloom: a harbour at night, from strings of bulbs to a lighthouse; what is bright goes down a
+// pyramid of ever smaller images, is blurred on every level, and comes up again as one glow, tight and wide.
 #include "01_hdr/tone_map.hpp"
 #include "04_pyramid_bloom/harbour.hpp"
 #include "04_pyramid_bloom/pyramid_bloom.hpp"

@@ -39,14 +39,14 @@ void resizeChain(std::vector<Framebuffer>& chain, const std::string& name, int c
 
 // excerpt: blur_taps
 BlurTaps blurTaps(float radius) {
-    // A tap between two texels is worth a share of either. So at half a texel's distance the nine taps weigh
-    // no more than five texels.
     constexpr int most = 4;
-    std::array<float, most + 2> texels = {};
-    if (radius > 1)
+    if (radius > 1) // more texels than taps: nothing to merge
         return {gaussian[0],
                 {radius, 2 * radius, 3 * radius, 4 * radius},
                 {gaussian.begin() + 1, gaussian.end()}};
+    // A tap between two texels is worth a share of either. So at half a texel's distance the nine taps weigh
+    // no more than five texels.
+    std::array<float, most + 2> texels = {};
     for (int k = -most; k <= most; ++k) {
         const float place = static_cast<float>(k) * radius;
         for (int j = 0; j <= most; ++j)

@@ -34,6 +34,7 @@ struct PyramidFilters {
     Toggle normalise;
 };
 
+// excerpt: parameters
 // How one bloom is drawn, read anew every frame.
 struct PyramidBloomParameters {
     PyramidFilters filters;
@@ -44,6 +45,7 @@ struct PyramidBloomParameters {
     bool accumulate = true;   // false: each level takes the next one as it was before it had a sum itself
     Format format = Format::rgba16f; // of the levels
 };
+// end excerpt
 
 // One direction of the nine-tap Gaussian as fewer bilinear fetches.
 struct BlurTaps {
