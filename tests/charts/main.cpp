@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <set>
 
 namespace {
 namespace fs = std::filesystem;
@@ -27,27 +28,32 @@ std::string content(const fs::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+// The family's charts and tables in a folder; costs are measured, not drawn.
+std::set<std::string> filesOf(const std::string& family, const fs::path& folder) {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename();
+        if (name.starts_with(family) && name != family + "_costs.csv") names.insert(name);
+    }
+    return names;
+}
+
 // Throws std::runtime_error naming the first file that is not, byte for byte, as it was committed.
 void requireSame(const fs::path& fresh, const fs::path& committed, const std::string& family) {
-    const auto check = [&](const fs::path& file) {
-        for (const fs::path& folder : {fresh, committed})
-            if (!fs::exists(folder / file))
-                throw std::runtime_error((folder / file).string() +
-                                         ": is not there, but its other is; run "
-                                         "tutorials/pages charts " +
-                                         family + ", look at the charts and commit them");
-        if (content(fresh / file) != content(committed / file))
-            throw std::runtime_error(
-                (committed / file).string() + ": differs from " + (fresh / file).string() +
-                ", drawn now; look at both, and if the new one is right run tutorials/pages "
-                "charts " +
-                family);
-    };
-    for (const fs::path& folder : {fresh, committed})
-        for (const auto& entry : fs::directory_iterator(folder)) {
-            const fs::path file = entry.path().filename();
-            if (file.string().starts_with(family) && file != family + "_costs.csv") check(file);
-        }
+    const std::string advice = "; if what is drawn now is right, run tutorials/pages charts " + family;
+    const std::set<std::string> drawn = filesOf(family, fresh);
+    for (const std::string& name : filesOf(family, committed))
+        if (!drawn.contains(name))
+            throw std::runtime_error((committed / name).string() + ": is no longer drawn" + advice +
+                                     " and delete it");
+    for (const std::string& name : drawn) {
+        if (!fs::exists(committed / name))
+            throw std::runtime_error((fresh / name).string() + ": has nothing to be compared with in " +
+                                     committed.string() + advice);
+        if (content(fresh / name) != content(committed / name))
+            throw std::runtime_error((committed / name).string() + ": differs from " +
+                                     (fresh / name).string() + ", drawn now; look at both" + advice);
+    }
 }
 
 } // namespace
@@ -73,6 +79,12 @@ int main(int argc, char** argv) {
         ->check(CLI::ExistingDirectory);
     CLI11_PARSE(app, argc, argv);
     try {
+        if (!committed.empty()) {
+            if (fs::equivalent(folder, committed))
+                throw std::runtime_error("--compare wants another folder than --out");
+            for (const std::string& name : filesOf(family, folder))
+                fs::remove(folder / name); // of an earlier run
+        }
         if (measure) families.at(family).measure(programs, costs);
         families.at(family).draw(programs, costs, folder);
         if (!committed.empty()) requireSame(folder, committed, family);
