@@ -37,6 +37,7 @@ xdotool                 presses the window's keys
 x11-utils               asks the window for its state
 imagemagick             takes and compares screenshots
 valgrind                exact instruction counts
+gnuplot-nox             draws charts
 "
 
 say() { printf '%s\n' "$*" >&2; }

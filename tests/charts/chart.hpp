@@ -22,15 +22,21 @@ struct Axes {
     std::string x; // with its unit
     std::string y;
     bool log_y = false; // errors of 0 are then drawn at the bottom, as "at most"
-    double floor = 0;   // the bottom of a logarithmic axis
+    double floor = 0;   // the bottom of a logarithmic axis, > 0 there
+    // The dial is what the scene asks for and not for us to choose: a method is judged by its worst.
+    bool dial_is_given = false;
 };
 
 // Whether no other point is at once as cheap and as accurate, and better in one of the two.
 std::vector<bool> paretoFront(const std::vector<Point>& points);
 
+// The same for methods judged by their worst: true at the worst point of each method that no other beats.
+std::vector<bool> worstFront(const std::vector<Point>& points);
+
 // Writes FILE (.svg): methods by the shape of their points, the front black and joined by a step line,
-// dominated points grey. The same points give the same bytes. Throws std::runtime_error where gnuplot cannot
-// be run.
+// dominated points grey; marks are named, and so are the dial's ends where they have room. The same points
+// give the same bytes. Throws std::runtime_error where gnuplot cannot be run, std::invalid_argument without
+// points or for a logarithmic axis without a bottom.
 void drawChart(const std::filesystem::path& file, const Axes& axes, const std::vector<Point>& points);
 
 // A table to write as CSV, numbers in few digits so that the last bit of a float does not change a committed
@@ -43,7 +49,20 @@ void writeCsv(const std::filesystem::path& file, const Table& table);
 // Throws std::runtime_error where it cannot be read or a row has another number of cells.
 Table readCsv(const std::filesystem::path& file);
 
-// Three significant digits, never "-0".
+// A table of costs as a family's measure function wrote it: the first column names what was measured.
+class Costs {
+  public:
+    explicit Costs(std::filesystem::path csv);
+    // Throws std::runtime_error naming the file and what it lacks.
+    double of(const std::string& name, const std::string& column) const;
+
+  private:
+    std::filesystem::path file_;
+    Table table_;
+};
+
+// Numbers as tables have them, never "-0": three significant digits, or so many decimals.
 std::string shortNumber(double value);
+std::string decimals(double value, int count);
 
 } // namespace gll::charts

@@ -35,6 +35,11 @@ struct HdrOptions {
     Number brightness = all.number("brightness", 1, 0, 1e6, "factor on all light of the scene");
     OrbitSettings orbit{all};
     // end excerpt
+
+    // What the charts speak for; the format they speak for is the seed's own.
+    HdrOptions() {
+        all.preset({"recommended", "the tone map that turns hues least", {{"tone_map", "pbr_neutral"}}});
+    }
 };
 
 // The lamps on the walls: each nearer one has a third of the light of the one before.

@@ -1,0 +1,121 @@
+// The charts' own tools: the front, numbers, tables, and that a drawing depends on its points alone.
+#include "charts/chart.hpp"
+
+#include "support/temporary_folder.hpp"
+
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+
+namespace gll::charts {
+namespace {
+
+const std::vector<Point> points = {{"cheap", "", 1, 8},          {"good", "levels 3", 2, 4},
+                                   {"good", "levels 4", 4, 1},   {"poor", "", 3, 6}, // as good is, at 2
+                                   {"same", "", 4, 1, "seed 9"}, // as good is: neither beats the other
+                                   {"perfect", "", 9, 0}};
+
+std::string drawn(const test::TemporaryFolder& folder, const Axes& axes, const std::vector<Point>& list) {
+    const std::filesystem::path file = folder / "chart.svg";
+    drawChart(file, axes, list);
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+int count(const std::string& text, const std::string& part) {
+    int found = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+        ++found;
+    return found;
+}
+
+TEST(ParetoFront, holdsWhatNothingBeatsInOneWithoutLosingInTheOther) {
+    EXPECT_EQ(paretoFront(points), (std::vector<bool>{true, true, true, false, true, true}));
+    EXPECT_TRUE(paretoFront({}).empty());
+}
+
+TEST(ParetoFront, leavesOutWhatIsAsGoodButDearerOrAsDearButWorse) {
+    EXPECT_EQ(paretoFront({{"a", "", 1, 1}, {"b", "", 2, 1}, {"c", "", 1, 2}}),
+              (std::vector<bool>{true, false, false}));
+}
+
+TEST(WorstFront, judgesAMethodByTheWorstPointOfItsDial) {
+    // The first method's best point beats all others, but its worst does not.
+    EXPECT_EQ(worstFront(
+                  {{"a", "dark", 4, 0.1}, {"a", "bright", 4, 9}, {"b", "dark", 4, 3}, {"b", "bright", 4, 2}}),
+              (std::vector<bool>{false, false, true, false}));
+}
+
+TEST(Csv, comesBackAsItWasWritten) {
+    const test::TemporaryFolder folder;
+    const Table table{{"method", "cost, cu", "note"},
+                      {{"5 taps, tent", "9.9", ""}, {"box", "0.1", "seed 000"}}};
+    writeCsv(folder / "t.csv", table);
+    const Table back = readCsv(folder / "t.csv");
+    EXPECT_EQ(back.columns, table.columns);
+    EXPECT_EQ(back.rows, table.rows);
+}
+
+TEST(Csv, isRefusedWhereARowHasAnotherNumberOfCells) {
+    const test::TemporaryFolder folder;
+    folder.write("t.csv", "a,b\n1,2\n3\n");
+    EXPECT_THROW(readCsv(folder / "t.csv"), std::runtime_error);
+    EXPECT_THROW(readCsv(folder / "none.csv"), std::runtime_error);
+}
+
+TEST(CostTable, namesWhatItLacks) {
+    const test::TemporaryFolder folder;
+    const Costs costs(folder.write("c.csv", "method,cost_cu\nbox,1.25\n"));
+    EXPECT_EQ(costs.of("box", "cost_cu"), 1.25);
+    try {
+        costs.of("tent", "cost_cu");
+        FAIL();
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("c.csv: has no cost_cu of \"tent\""), std::string::npos)
+            << error.what();
+    }
+    EXPECT_THROW(costs.of("box", "ns"), std::runtime_error);
+}
+
+TEST(Numbers, areShortAndNeverMinusZero) {
+    EXPECT_EQ(shortNumber(0.0123456), "0.0123");
+    EXPECT_EQ(shortNumber(1234567), "1.23e+06");
+    EXPECT_EQ(shortNumber(-0.0), "0");
+    EXPECT_EQ(decimals(2.345, 1), "2.3");
+    EXPECT_EQ(decimals(-0.04, 1), "0.0");
+    EXPECT_EQ(decimals(-0.06, 1), "-0.1");
+}
+
+TEST(Drawing, dependsOnThePointsAlone) {
+    const test::TemporaryFolder folder;
+    const Axes axes{"a title", "cost, cu", "error, %"};
+    const std::string once = drawn(folder, axes, points);
+    EXPECT_EQ(once, drawn(folder, axes, points));
+    std::vector<Point> other = points;
+    other[0].error = 7.9;
+    EXPECT_NE(once, drawn(folder, axes, other));
+}
+
+TEST(Drawing, namesAxesMethodsMarksAndTheEndsOfADial) {
+    const test::TemporaryFolder folder;
+    const std::string svg = drawn(folder, {"a title", "cost, cu", "error, %"}, points);
+    for (const char* text : {"a title", "cost, cu", "error, %", "seed 9", "levels 3", "levels 4"})
+        EXPECT_EQ(count(svg, ">" + std::string(text) + "<"), 1) << text;
+    for (const Point& point : points)
+        EXPECT_GE(count(svg, ">" + point.method + "<"), 1) << point.method;
+}
+
+TEST(Drawing, putsAnErrorOfZeroAtTheBottomOfALogarithmicAxisAndSaysSo) {
+    const test::TemporaryFolder folder;
+    const std::string svg = drawn(folder, {"a title", "x", "y", true, 0.01}, points);
+    EXPECT_EQ(count(svg, "≤ 0.01"), 1);
+}
+
+TEST(Drawing, refusesALogarithmicAxisWithoutABottomAndAChartWithoutPoints) {
+    const test::TemporaryFolder folder;
+    EXPECT_THROW(drawn(folder, {"a title", "x", "y", true}, points), std::invalid_argument);
+    EXPECT_THROW(drawn(folder, {"a title", "x", "y"}, {}), std::invalid_argument);
+}
+
+} // namespace
+} // namespace gll::charts

@@ -1,0 +1,17 @@
+// The chart of floating-point formats, and of two that are not.
+#pragma once
+
+#include <filesystem>
+
+namespace gll::charts {
+
+// Measures what a frame of 01_hdr costs with each format of its target, and writes it as a table: a minute,
+// under callgrind.
+void measureFormatCosts(const std::filesystem::path& programs, const std::filesystem::path& costs_csv);
+
+// Renders frames with each format, compares them with the 32-bit one's, and writes formats.csv, formats.svg
+// and formats_flip.svg into the folder.
+void drawFormatCharts(const std::filesystem::path& programs, const std::filesystem::path& costs_csv,
+                      const std::filesystem::path& folder);
+
+} // namespace gll::charts
