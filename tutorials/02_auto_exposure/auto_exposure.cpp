@@ -8,7 +8,7 @@ namespace gll {
 namespace {
 
 constexpr int reduced_by = 8;         // along either axis, in one step of the area-weighted average
-constexpr int histogram_samples = 96; // at most, along either axis
+constexpr int histogram_samples = 64; // at most, along either axis
 
 AdaptationSpeed speedOf(const AutoExposureOptions& options) {
     return {.up_s = options.adapt_up_s, .down_s = options.adapt_down_s};

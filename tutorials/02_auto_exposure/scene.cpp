@@ -245,7 +245,7 @@ Mesh makeCourtAndHall() {
 
 // excerpt: walk
 Camera walk(int frame_number) {
-    constexpr float start_rad = 3.5F; // frame 1 stands deep in the hall
+    constexpr float start_rad = 3.5F;                           // frame 1 stands deep in the hall
     const int frame_in_walk = (frame_number - 1) % walk_frames; // whole numbers: every round is the same
     const float way_rad = start_rad + 2 * pi * static_cast<float>(frame_in_walk) / walk_frames;
     // x is 0 where z is -0.4, in the thickness of the wall: both ways lead through the middle arch.
