@@ -19,7 +19,6 @@ using truth::ColorImage;
 using truth::ScalarImage;
 
 constexpr glm::ivec2 cost_size{1280, 720};
-constexpr int response_size = 512;
 constexpr glm::ivec2 scene_size{480, 270};
 constexpr double emitter = 1000;
 // What a picture gets of its bloom: enough to see, as in the rungs' defaults.
@@ -31,8 +30,8 @@ struct Method {
     std::string mark;
     Set set;
     std::string rung = "04_pyramid_bloom";
-    int period_px = 32;         // the response repeats when the light moves by so much
-    std::vector<double> sigmas; // of the mixture that it stands for, up to a common factor
+    int period_px = 32; // the response repeats when the light moves by so much
+    int adding = 1;     // how many levels add their light
 };
 
 bool isPyramid(const Method& method) { return method.rung == "04_pyramid_bloom"; }
@@ -55,9 +54,7 @@ std::vector<Method> methods() {
                                   {"finest", spline ? "off" : "on"},
                                   {"normalise", "on"}},
                           .period_px = 1 << count,
-                          .sigmas = {}};
-            for (int i = spline ? 1 : 0; i < count; ++i)
-                method.sigmas.push_back(std::exp2(i));
+                          .adding = spline ? count - 1 : count};
             if (count == 5 && name == "5 taps, tent") method.mark = "seed 000";
             if (count == 5 && blur == "gaussian") method.mark = "seed 001";
             if (count == 5 && spline) method.mark = "recommended";
@@ -75,7 +72,7 @@ std::vector<Method> methods() {
     const auto gaussian = [&](const std::string& name, const std::string& dial, Set set, int period,
                               const std::string& mark = "") {
         set["threshold"] = "1000";
-        list.push_back({name, dial, mark, std::move(set), "03_gaussian_bloom", period, {1}});
+        list.push_back({name, dial, mark, std::move(set), "03_gaussian_bloom", period});
     };
     for (const int iterations : {5, 20})
         gaussian("ping-pong, 9 taps", "iterations " + std::to_string(iterations),
@@ -123,8 +120,12 @@ std::string bloomTarget(const Method& method, glm::ivec2 size) {
 }
 
 // The part of the light that a method's numbers leave to a strength: pyramids only add.
-double gain(const Method& method) {
-    return isPyramid(method) ? static_cast<double>(method.sigmas.size()) : 1;
+double gain(const Method& method) { return method.adding; }
+
+// What a method takes to lie beyond the edges.
+truth::Edge edgeOf(const Method& method) {
+    return isPyramid(method) && method.set.at("down_filter") == "spline" ? truth::Edge::mirror
+                                                                         : truth::Edge::clamp;
 }
 
 struct Errors {
@@ -144,11 +145,13 @@ double sum(const ColorImage& image) {
 
 // The distance at which a response has fallen to a tenth of its middle: along the diagonals over along the
 // axes.
-double diagonalOverAxis(const ScalarImage& response, int x, int y) {
+double diagonalOverAxis(const ScalarImage& response) {
+    const int x = response.width / 2;
+    const int y = response.height / 2;
     const double tenth = response.at(x, y) / 10;
     const auto radius = [&](int dx, int dy) {
         double before = response.at(x, y);
-        for (int i = 1; i < response_size / 2; ++i) {
+        for (int i = 1; i < x; ++i) {
             const double here = response.at(x + i * dx, y + i * dy);
             if (here < tenth) return (i - 1 + (before - tenth) / (before - here)) * std::hypot(dx, dy);
             before = here;
@@ -162,7 +165,8 @@ double diagonalOverAxis(const ScalarImage& response, int x, int y) {
 
 class Bench {
   public:
-    Bench(const fs::path& programs, const std::vector<Method>& list) : programs_(programs), list_(list) {
+    Bench(const fs::path& programs, const std::vector<Method>& list)
+        : programs_(programs), list_(list), responses_(list.size()) {
         writeExr(folder_ / "black.exr", ColorImage(16, 16));
         makeScenes();
     }
@@ -198,15 +202,17 @@ class Bench {
             if (method.rung != rung) continue;
             sayProgress("responses: " + key(method));
             Frames frames(programs_ / rung, blackScene(rung));
-            // Along a diagonal over one period, in the middle.
-            std::vector<std::size_t> shifted;
+            // Over one period along a row and along a column, about the middle.
+            const int side = std::max(256, 8 * method.period_px);
+            const glm::ivec2 size(side);
+            const int middle = side / 2;
             std::vector<glm::ivec2> shifts;
-            const glm::ivec2 size(response_size);
-            for (int i = 0; i < method.period_px; ++i) {
-                shifts.emplace_back(i);
-                shifted.push_back(askEmitter(frames, method, size,
-                                             glm::ivec2(response_size / 2 - method.period_px / 2 + i)));
-            }
+            std::vector<std::size_t> shifted;
+            for (const glm::ivec2 direction : {glm::ivec2(1, 0), {0, 1}})
+                for (int i = 0; i < method.period_px; ++i) {
+                    shifts.push_back(direction * (i - method.period_px / 2));
+                    shifted.push_back(askEmitter(frames, method, size, middle + shifts.back()));
+                }
             std::mt19937 random(1); // its sequence is the standard's, the same everywhere
             std::vector<std::size_t> sized;
             for (const glm::ivec2 frame_size : {glm::ivec2(2, 2),
@@ -237,21 +243,30 @@ class Bench {
 
             std::vector<ColorImage> responses;
             for (const std::size_t frame : shifted)
-                responses.push_back(resized(frames.read(frame), response_size, response_size));
-            errors[m].shift_variance = truth::shiftVariance(responses, shifts, method.period_px).mean;
+                responses.push_back(resized(frames.read(frame), side, side));
+            const auto half = static_cast<std::ptrdiff_t>(method.period_px);
+            const auto variance = [&](std::ptrdiff_t from) {
+                return truth::shiftVariance({responses.begin() + from, responses.begin() + from + half},
+                                            {shifts.begin() + from, shifts.begin() + from + half},
+                                            method.period_px)
+                    .mean;
+            };
+            errors[m].shift_variance = (variance(0) + variance(half)) / 2;
             // Their mean, moved back to the middle.
-            const int middle = response_size / 2;
-            ScalarImage mean(response_size, response_size);
-            for (std::size_t i = 0; i < responses.size(); ++i) {
-                const int back = static_cast<int>(i) - method.period_px / 2;
-                for (int y = 0; y < response_size; ++y)
-                    for (int x = 0; x < response_size; ++x)
-                        if (x + back >= 0 && y + back >= 0 && x + back < response_size &&
-                            y + back < response_size)
-                            mean.at(x, y) += responses[i].at(x + back, y + back).g / double(responses.size());
-            }
+            ScalarImage mean(side, side);
+            for (std::size_t i = 0; i < responses.size(); ++i)
+                for (int y = 0; y < side; ++y)
+                    for (int x = 0; x < side; ++x) {
+                        const glm::ivec2 from = glm::ivec2(x, y) + shifts[i];
+                        if (from.x >= 0 && from.y >= 0 && from.x < side && from.y < side)
+                            mean.at(x, y) += responses[i].at(from.x, from.y).g / double(responses.size());
+                    }
             errors[m].sigma_px = std::sqrt(truth::moments(mean).variance_px2());
-            errors[m].squareness = std::abs(diagonalOverAxis(mean, middle, middle) - 1);
+            errors[m].squareness = std::abs(diagonalOverAxis(mean) - 1);
+            const double whole = truth::moments(mean).sum;
+            for (double& value : mean.pixels)
+                value /= whole;
+            responses_[m] = mean;
             for (std::size_t i = 0; i < sized.size(); ++i) {
                 const glm::ivec2 frame_size = sizes_[i];
                 const double light = sum(resized(frames.read(sized[i]), frame_size.x, frame_size.y));
@@ -303,12 +318,7 @@ class Bench {
                 if (method.rung != rung) continue;
                 sayProgress("scene " + std::to_string(scene + 1) + " of 3: " + key(method));
                 const ColorImage bloom = resized(frames.read(asked[next++]), scene_size.x, scene_size.y);
-                truth::GaussianMixture mixture;
-                for (const double sigma : method.sigmas)
-                    mixture.parts.push_back({1.0 / double(method.sigmas.size()), sigma});
-                mixture = truth::matched(mixture, errors[m].sigma_px * errors[m].sigma_px);
-                const ColorImage truth =
-                    truth::convolved(light, truth::pointSpread(mixture), truth::Edge::clamp);
+                const ColorImage truth = truth::convolved(light, responses_[m], edgeOf(method));
                 const auto withBloom = [&](const ColorImage& added, double strength) {
                     ColorImage picture = light;
                     for (std::size_t i = 0; i < picture.pixels.size(); ++i)
@@ -327,6 +337,7 @@ class Bench {
     const fs::path programs_;
     const std::vector<Method>& list_;
     test::TemporaryFolder folder_;
+    std::vector<ScalarImage> responses_; // of each method: its mean over all places, sum 1
     std::vector<ColorImage> scenes_;
     std::vector<glm::ivec2> sizes_;
 };

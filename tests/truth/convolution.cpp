@@ -112,12 +112,15 @@ class Convolution {
     // others, through wrapping, before it.
     template <class Value>
     double padded(const Value& value, int x, int y) const {
-        const auto nearest = [](int at, int size, int before) {
-            if (at < size) return at;
-            return at < size + before ? size - 1 : 0;
-        };
         if (edge_ == Edge::zero) return x < width_ && y < height_ ? value(x, y) : 0.0;
-        return value(nearest(x, width_, before_x_), nearest(y, height_, before_y_));
+        const auto inside = [&](int at, int size, int before, int padded) {
+            const int place = at < size + before ? at : at - padded;
+            if (edge_ == Edge::clamp) return std::clamp(place, 0, size - 1);
+            const int folded = ((place % (2 * size)) + 2 * size) % (2 * size);
+            return folded < size ? folded : 2 * size - 1 - folded;
+        };
+        return value(inside(x, width_, before_x_, padded_width_),
+                     inside(y, height_, before_y_, padded_height_));
     }
 
     int width_;

@@ -9,8 +9,9 @@ namespace gll::truth {
 
 // What lies beyond the picture's edges.
 enum class Edge {
-    zero, // nothing: light spreads out of the picture and is lost
-    clamp // the nearest pixel's colour, as GL_CLAMP_TO_EDGE
+    zero,  // nothing: light spreads out of the picture and is lost
+    clamp, // the nearest pixel's colour, as GL_CLAMP_TO_EDGE
+    mirror // the picture's mirror image, as GL_MIRRORED_REPEAT: no light is lost
 };
 
 // The picture convolved with the point spread function, whose centre is pixel (width / 2, height / 2),

@@ -24,9 +24,15 @@ double direct(const ScalarImage& image, const ScalarImage& spread, Edge edge, in
         for (int i = 0; i < spread.width; ++i) {
             const int from_x = x - (i - spread.width / 2);
             const int from_y = y - (j - spread.height / 2);
-            const int near_x = std::clamp(from_x, 0, image.width - 1);
-            const int near_y = std::clamp(from_y, 0, image.height - 1);
-            if (edge == Edge::clamp || (near_x == from_x && near_y == from_y))
+            const auto inside = [&](int at, int size) {
+                if (edge != Edge::mirror) return std::clamp(at, 0, size - 1);
+                while (at < 0 || at >= size)
+                    at = at < 0 ? -1 - at : 2 * size - 1 - at;
+                return at;
+            };
+            const int near_x = inside(from_x, image.width);
+            const int near_y = inside(from_y, image.height);
+            if (edge != Edge::zero || (near_x == from_x && near_y == from_y))
                 sum += spread.at(i, j) * image.at(near_x, near_y);
         }
     return sum;
@@ -38,7 +44,7 @@ TEST(Convolution, isTheSumItStandsFor) {
                                            {4, 4}, {1, 31}, {21, 13}}; // even ones too
     for (const auto& [width, height] : sizes)
         for (const auto& [spread_width, spread_height] : spreads)
-            for (const Edge edge : {Edge::zero, Edge::clamp}) {
+            for (const Edge edge : {Edge::zero, Edge::clamp, Edge::mirror}) {
                 const ScalarImage image = noise(1, width, height);
                 const ScalarImage spread = noise(2, spread_width, spread_height);
                 const ScalarImage result = convolved(image, spread, edge);
@@ -48,7 +54,7 @@ TEST(Convolution, isTheSumItStandsFor) {
                     for (int x = 0; x < width; ++x)
                         ASSERT_NEAR(result.at(x, y), direct(image, spread, edge, x, y), 1e-12)
                             << width << "x" << height << " with " << spread_width << "x" << spread_height
-                            << " at " << x << ", " << y << (edge == Edge::clamp ? " clamp" : " zero");
+                            << " at " << x << ", " << y << " edge rule " << static_cast<int>(edge);
             }
 }
 
