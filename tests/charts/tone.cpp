@@ -8,7 +8,7 @@
 #include "truth/color.hpp"
 #include "truth/tone_reference.hpp"
 
-#include <cstdio>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -72,6 +72,17 @@ std::vector<glm::dvec3> sweep() {
     return list;
 }
 
+// From linear scene light to linear display light, colour by colour.
+using Rendering = std::function<std::vector<glm::dvec3>(std::vector<glm::dvec3>)>;
+
+Rendering by(const Curve& curve) {
+    return [curve](std::vector<glm::dvec3> colors) {
+        for (glm::dvec3& color : colors)
+            color = curve(color);
+        return colors;
+    };
+}
+
 struct HueError {
     double mean_deg = 0;
     double largest_deg = 0;
@@ -82,7 +93,9 @@ struct HueError {
 // ICtCp's hue depends a little on how much light there is, and a change of light is no turn of hue: the input
 // is compared at the luminance of the output. Colours that nobody could tell from a grey (delta E ITP below
 // 1, BT.2124) have no hue any more and are counted instead.
-HueError hueError(const std::vector<glm::dvec3>& scene, const std::vector<glm::dvec3>& display) {
+HueError hueError(const Rendering& rendering) {
+    const std::vector<glm::dvec3> scene = sweep();
+    const std::vector<glm::dvec3> display = rendering(scene);
     HueError error;
     int with_hue = 0;
     for (std::size_t i = 0; i < scene.size(); ++i) {
@@ -100,12 +113,6 @@ HueError hueError(const std::vector<glm::dvec3>& scene, const std::vector<glm::d
     error.lab_mean_deg /= with_hue;
     error.washed_out = 1 - with_hue / double(scene.size());
     return error;
-}
-
-std::vector<glm::dvec3> through(const Curve& curve, std::vector<glm::dvec3> colors) {
-    for (glm::dvec3& color : colors)
-        color = curve(color);
-    return colors;
 }
 
 struct AcesDistance {
@@ -131,6 +138,9 @@ AcesDistance acesDistance(const Curve& curve, const std::vector<glm::dvec3>& sce
     return distance;
 }
 
+// Below what 16 bits can show. OpenColorIO computes in float32 with tables.
+constexpr double noticeable_fall = 1e-6;
+
 struct GreyScale {
     double largest_fall = 0; // of the output where the input grows
     double range_ev = 0; // from where the first code above black is shown to where the last below white is
@@ -138,27 +148,37 @@ struct GreyScale {
     double mid_grey = 0; // what 0.18 becomes
 };
 
-GreyScale greyScale(const Curve& curve) {
+GreyScale greyScale(const Rendering& rendering) {
     GreyScale grey;
     const double black = truth::srgbDecoded(0.5 / 255);
     const double white = truth::srgbDecoded(254.5 / 255);
     constexpr int steps_per_stop = 1000;
+    std::vector<glm::dvec3> ramp;
+    for (int i = -24 * steps_per_stop; i <= 16 * steps_per_stop; ++i)
+        ramp.emplace_back(std::exp2(double(i) / steps_per_stop));
     int shown_stops = 0;
     double highest = 0;
-    for (int i = -24 * steps_per_stop; i <= 16 * steps_per_stop; ++i) {
-        const double shown = curve(glm::dvec3(std::exp2(double(i) / steps_per_stop))).g;
-        grey.largest_fall = std::max(grey.largest_fall, highest - shown);
-        highest = std::max(highest, shown);
-        if (shown >= black && shown < white) ++shown_stops;
+    for (const glm::dvec3& shown : rendering(ramp)) {
+        grey.largest_fall = std::max(grey.largest_fall, highest - shown.g);
+        highest = std::max(highest, shown.g);
+        if (shown.g >= black && shown.g < white) ++shown_stops;
     }
     grey.range_ev = double(shown_stops) / steps_per_stop;
-    grey.mid_grey = curve(glm::dvec3(0.18)).g;
+    grey.mid_grey = rendering({glm::dvec3(0.18)})[0].g;
     grey.largest = highest;
-    for (const glm::dvec3& color : sweep()) {
-        const glm::dvec3 shown = curve(color);
+    for (const glm::dvec3& shown : rendering(sweep()))
         grey.largest = std::max({grey.largest, shown.r, shown.g, shown.b});
-    }
     return grey;
+}
+
+// The columns of the table that need no cost, in its order.
+std::vector<std::string> figures(const HueError& hue, const AcesDistance& aces, const GreyScale& grey) {
+    return {decimals(hue.mean_deg, 2),      decimals(hue.largest_deg, 1),
+            decimals(hue.lab_mean_deg, 2),  decimals(100 * hue.washed_out, 1),
+            decimals(aces.as_it_is, 1),     decimals(aces.at_best, 1),
+            decimals(aces.best_ev, 1),      grey.largest_fall > noticeable_fall ? "no" : "yes",
+            shortNumber(grey.largest_fall), decimals(grey.range_ev, 1),
+            decimals(grey.largest, 3),      decimals(grey.mid_grey, 3)};
 }
 
 } // namespace
@@ -186,8 +206,7 @@ void measureToneCosts(const fs::path& programs, const fs::path& costs_csv) {
 
 void drawToneCharts(const fs::path& /*programs*/, const fs::path& costs_csv, const fs::path& folder) {
     const Costs costs(costs_csv);
-    const std::vector<glm::dvec3> colored = sweep();
-    std::vector<glm::dvec3> scene = colored;
+    std::vector<glm::dvec3> scene = sweep();
     for (int stop = first_stop; stop <= last_stop; ++stop)
         scene.emplace_back(std::exp2(stop));
     std::vector<glm::dvec3> aces_itp;
@@ -201,27 +220,25 @@ void drawToneCharts(const fs::path& /*programs*/, const fs::path& costs_csv, con
                 {}};
     std::vector<Point> hue, aces;
     for (const Curve& curve : curves()) {
-        const HueError turned = hueError(colored, through(curve, colored));
+        const HueError turned = hueError(by(curve));
         const AcesDistance distance = acesDistance(curve, scene, aces_itp);
-        const GreyScale grey = greyScale(curve);
         const double instructions = costs.of(curve.tone_map, "instructions_per_pixel");
-        table.rows.push_back({curve.tone_map, curve.dial, decimals(instructions, 1),
-                              decimals(costs.of(curve.tone_map, "cost_cu"), 2), decimals(turned.mean_deg, 2),
-                              decimals(turned.largest_deg, 1), decimals(turned.lab_mean_deg, 2),
-                              decimals(100 * turned.washed_out, 1), decimals(distance.as_it_is, 1),
-                              decimals(distance.at_best, 1), decimals(distance.best_ev, 1),
-                              grey.largest_fall > 1e-12 ? "no" : "yes", shortNumber(grey.largest_fall),
-                              decimals(grey.range_ev, 1), decimals(grey.largest, 3),
-                              decimals(grey.mid_grey, 3), curve.mark});
+        std::vector<std::string> row = {curve.tone_map, curve.dial, decimals(instructions, 1),
+                                        decimals(costs.of(curve.tone_map, "cost_cu"), 2)};
+        for (const std::string& cell : figures(turned, distance, greyScale(by(curve))))
+            row.push_back(cell);
+        row.push_back(curve.mark);
+        table.rows.push_back(row);
         hue.push_back({curve.tone_map, curve.dial, instructions, turned.mean_deg, curve.mark});
         aces.push_back({curve.tone_map, curve.dial, instructions, distance.at_best, curve.mark});
     }
     // What the fits are fits to: no program's tone map, so without a cost.
-    const HueError film = hueError(colored, truth::acesDisplayLight(colored));
-    table.rows.push_back({"ACES RRT + ODT", "", "", "", decimals(film.mean_deg, 2),
-                          decimals(film.largest_deg, 1), decimals(film.lab_mean_deg, 2),
-                          decimals(100 * film.washed_out, 1), "0.0", "0.0", "0.0", "", "", "", "", "",
-                          "the reference"});
+    std::vector<std::string> film = {"ACES RRT + ODT", "", "", ""};
+    for (const std::string& cell :
+         figures(hueError(truth::acesDisplayLight), {}, greyScale(truth::acesDisplayLight)))
+        film.push_back(cell);
+    film.emplace_back("the reference");
+    table.rows.push_back(film);
     writeCsv(folder / "tone.csv", table);
     const std::string x = "instructions per pixel, over those of clamp";
     drawChart(folder / "tone_hue.svg",
