@@ -72,14 +72,15 @@ const Texture& LuminanceMeter::drawAverages(Frame& frame, const Texture& hdr) {
     std::size_t step = 0;
     do {
         const glm::ivec2 size = (source->size() + reduced_by - 1) / reduced_by;
-        const std::string name = "average" + std::to_string(step);
         if (step == averages_.size())
             averages_.emplace_back(
-                Framebuffer({{.name = name, .format = Format::rg32f, .filter = Filter::nearest}}, size));
+                std::vector<Attachment>{
+                    {.name = "average", .format = Format::rg32f, .filter = Filter::nearest}},
+                size);
         averages_[step].resize(size);
         const Program& program =
             shaders_.fullScreen("02_auto_exposure/average.frag", {{"FROM_LIGHT", step == 0 ? "1" : "0"}});
-        frame.pass(name, averages_[step],
+        frame.pass("average" + std::to_string(step), averages_[step],
                    {.program = program,
                     .inputs = {{"source", *source}},
                     .uniforms = usedBy(program, {{"target_size", size}, {"epsilon", options_.epsilon}})});
