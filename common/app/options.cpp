@@ -294,6 +294,11 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
             ->type_name("FILE");
     }
 
+    if (info.takes_image)
+        app.add_option("--image", options.files.image,
+                       "your own picture instead of the scene: .exr, .hdr, .png, .jpg")
+            ->type_name("FILE");
+
     // A script's unset variable must not pass for an option that was not given.
     for (CLI::Option* option :
          app.get_options([](const CLI::Option* o) { return o->get_items_expected() > 0; }))

@@ -16,6 +16,7 @@ struct RungFiles {
     std::filesystem::path mesh;        // --mesh
     std::filesystem::path floor;       // --floor
     std::filesystem::path environment; // --environment
+    std::filesystem::path image;       // --image
 };
 
 // What a rung is made from, once there is an OpenGL context.
@@ -49,6 +50,7 @@ struct RungInfo {
     std::string name;         // "05_hdr_bloom"
     std::string summary;      // one line
     bool takes_files = false; // whether --mesh, --floor and --environment mean anything to it
+    bool takes_image = false; // whether --image stands in for its scene
     std::function<std::unique_ptr<Rung>(RungResources)> make = {};
 };
 

@@ -64,9 +64,9 @@ void settingsSection(Settings& settings) {
 }
 
 void keysSection() {
-    for (const char* line : {"Space   pause, go on", ". ,     one frame on, back", "drag    orbit",
-                             "wheel   zoom", "R       the scripted camera", "P       write this frame",
-                             "H       hide the panel", "Esc     quit"})
+    for (const char* line : {"Space   pause, go on", ". ,     one frame on, back",
+                             "drag    orbit, or the divider", "wheel   zoom", "R       the scripted camera",
+                             "P       write this frame", "H       hide the panel", "Esc     quit"})
         ImGui::TextUnformatted(line);
 }
 

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 
 namespace gll {
@@ -149,6 +150,7 @@ class RungWindow {
         glfwSetWindowUserPointer(context_.window(), this);
         glfwSetKeyCallback(context_.window(), onKey);
         glfwSetCursorPosCallback(context_.window(), onCursor);
+        glfwSetMouseButtonCallback(context_.window(), onButton);
         glfwSetScrollCallback(context_.window(), onScroll);
         panel_.emplace(context_.window());
         state_.renderer = context_.info().renderer;
@@ -195,6 +197,35 @@ class RungWindow {
         if (key == GLFW_KEY_ESCAPE) glfwSetWindowShouldClose(window, GLFW_TRUE);
     }
 
+    // Where on the window's width the divider of two compared methods is; nothing where none is shown.
+    std::optional<double> divider() const {
+        const Setting* compare = find("compare");
+        const Setting* split = find("split");
+        if (compare == nullptr || split == nullptr || compare->value == 0) return std::nullopt;
+        return split->value;
+    }
+
+    const Setting* find(const std::string& name) const {
+        for (const Setting& setting : settings_.all())
+            if (setting.name == name) return &setting;
+        return nullptr;
+    }
+
+    static double width(GLFWwindow* window) { // in the cursor's units
+        int width = 1;
+        glfwGetWindowSize(window, &width, nullptr);
+        return std::max(width, 1);
+    }
+
+    static void onButton(GLFWwindow* window, int button, int action, int) {
+        constexpr double reach = 10;
+        RungWindow& that = self(window);
+        if (button != GLFW_MOUSE_BUTTON_LEFT) return;
+        const auto divider = that.divider();
+        that.drags_divider_ = action == GLFW_PRESS && divider && !that.panel_->hasMouse() &&
+                              std::abs(that.cursor_x_ - *divider * width(window)) < reach;
+    }
+
     static void onCursor(GLFWwindow* window, double x, double y) {
         RungWindow& that = self(window);
         const double dx = x - that.cursor_x_;
@@ -203,6 +234,10 @@ class RungWindow {
         that.cursor_y_ = y;
         if (glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_LEFT) != GLFW_PRESS || that.panel_->hasMouse())
             return;
+        if (that.drags_divider_) {
+            that.nudge("split", [&](double) { return x / width(window); });
+            return;
+        }
         constexpr double degrees_per_unit = 0.4;
         that.nudge("camera_yaw_deg",
                    [&](double v) { return std::remainder(v + dx * degrees_per_unit, 360); });
@@ -215,7 +250,7 @@ class RungWindow {
         that.nudge("camera_zoom", [&](double v) { return v * std::pow(1.1, steps); });
     }
 
-    // Changes a camera setting within its range, to thousandths; rungs without a camera have none.
+    // Changes a setting within its range, to thousandths, where the rung has it.
     template <class Change>
     void nudge(const std::string& name, const Change& change) {
         for (Setting& setting : settings_.all())
@@ -299,6 +334,7 @@ class RungWindow {
         file("--mesh", given_.mesh);
         file("--floor", given_.floor);
         file("--environment", given_.environment);
+        file("--image", given_.image);
         return line + " --out " + out.string();
     }
 
@@ -316,6 +352,7 @@ class RungWindow {
     std::string rendered_settings_;
     bool readings_are_current_ = false;
     bool save_asked_ = false;
+    bool drags_divider_ = false;
     double cursor_x_ = 0;
     double cursor_y_ = 0;
 };

@@ -1,12 +1,11 @@
 // 05_hdr_bloom's passes, as its command line writes them, against the same passes computed in double from the
 // floats each of them read: bright pass, every filter down and up, the whole chain, and the presented frame.
 #include "01_hdr/tone_map.hpp"
-#include "io/image.hpp"
+#include "bloom_reference.hpp"
 #include "support/temporary_folder.hpp"
 #include "tone_reference.hpp"
 
 #include <cstdio>
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <map>
 
@@ -19,139 +18,10 @@ constexpr double threshold = 1.0; // the rung's defaults
 constexpr double knee = 0.6;
 constexpr double intensity = 0.7;
 constexpr int levels = 5;
-constexpr const char* karis_kinds[] = {"seed", "texel", "none"};
-constexpr const char* down_filters[] = {"5tap", "13tap", "4tap", "box"};
+constexpr const char* karis_kinds[] = {"average", "texel", "none"};
+constexpr const char* down_filters[] = {"5tap", "13tap", "4tap", "box"}; // pyramid_test.cpp has all
 constexpr const char* up_filters[] = {"tent", "4tap", "bilinear"};
 constexpr const char* sizes[] = {"640x480", "101x77", "7x3"}; // even down to the last level, odd, tiny
-
-// Linear RGB in double; the rows' order does not matter, for every filter is symmetric.
-struct Plane {
-    int width = 0;
-    int height = 0;
-    std::vector<glm::dvec3> pixels;
-
-    Plane() = default;
-    Plane(int w, int h)
-        : width(w), height(h), pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)) {}
-    glm::dvec3& at(int x, int y) { return pixels[static_cast<std::size_t>(y * width + x)]; }
-    const glm::dvec3& at(int x, int y) const { return pixels[static_cast<std::size_t>(y * width + x)]; }
-    // The nearest texel inside.
-    const glm::dvec3& clamped(int x, int y) const {
-        return at(std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1));
-    }
-    // GL_LINEAR with GL_CLAMP_TO_EDGE at a place in texels; the first texel's centre is (0.5, 0.5).
-    glm::dvec3 sample(double x, double y) const {
-        const double left = std::floor(x - 0.5);
-        const double top = std::floor(y - 0.5);
-        const double fx = x - 0.5 - left;
-        const double fy = y - 0.5 - top;
-        const int i = static_cast<int>(left);
-        const int j = static_cast<int>(top);
-        return (clamped(i, j) * (1 - fx) + clamped(i + 1, j) * fx) * (1 - fy) +
-               (clamped(i, j + 1) * (1 - fx) + clamped(i + 1, j + 1) * fx) * fy;
-    }
-};
-
-// A plane of the size from a function of the place in the source, in texels of the source.
-template <class Function>
-Plane resampled(const Plane& source, int width, int height, const Function& function) {
-    Plane result(width, height);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            result.at(x, y) = function((x + 0.5) * source.width / width, (y + 0.5) * source.height / height);
-    return result;
-}
-
-double luminance(const glm::dvec3& color) { return glm::dot(color, glm::dvec3(0.2126, 0.7152, 0.0722)); }
-
-// smoothstep over threshold +- knee
-double brightCurve(double luma, double at, double half_width) {
-    if (half_width <= 0) return luma > at ? 1 : 0;
-    const double t = std::clamp((luma - (at - half_width)) / (2 * half_width), 0.0, 1.0);
-    return t * t * (3 - 2 * t);
-}
-
-Plane bright(const Plane& hdr, int width, int height, const std::string& karis, double at = threshold,
-             double half_width = knee) {
-    return resampled(hdr, width, height, [&](double x, double y) {
-        if (karis != "texel") {
-            const glm::dvec3 mean = hdr.sample(x, y);
-            const double luma = luminance(mean);
-            return mean * brightCurve(luma, at, half_width) / (karis == "seed" ? 1 + luma : 1);
-        }
-        const int i = static_cast<int>(std::floor(x - 0.5));
-        const int j = static_cast<int>(std::floor(y - 0.5));
-        glm::dvec3 sum(0);
-        double weights = 0;
-        for (const auto& [dx, dy] : {std::pair(0, 0), {1, 0}, {0, 1}, {1, 1}}) {
-            const glm::dvec3 texel = hdr.clamped(i + dx, j + dy);
-            const double luma = luminance(texel);
-            const double share_x = 1 - std::abs(x - 0.5 - i - dx);
-            const double share_y = 1 - std::abs(y - 0.5 - j - dy);
-            sum += texel * share_x * share_y * brightCurve(luma, at, half_width) / (1 + luma);
-            weights += share_x * share_y / (1 + luma);
-        }
-        return sum / weights;
-    });
-}
-
-// A filter as a list of bilinear taps: offsets in texels, weight.
-struct Tap {
-    double x, y, weight;
-};
-
-std::vector<Tap> tapsOf(const std::string& filter) {
-    std::vector<Tap> taps;
-    const auto square = [&](double distance, double weight) { // the four corners of a square
-        for (const double y : {-distance, distance})
-            for (const double x : {-distance, distance})
-                taps.push_back({x, y, weight});
-    };
-    const auto cross = [&](double distance, double weight) {
-        for (const double d : {-distance, distance}) {
-            taps.push_back({d, 0, weight});
-            taps.push_back({0, d, weight});
-        }
-    };
-    if (filter == "5tap") {
-        taps = {{0, 0, 1 / 2.0}};
-        square(1, 1 / 8.0);
-    } else if (filter == "13tap") { // methods of Jimenez 2014: sums of five boxes
-        taps = {{0, 0, 1 / 8.0}};
-        square(1, 1 / 8.0);
-        cross(2, 1 / 16.0);
-        square(2, 1 / 32.0);
-    } else if (filter == "4tap") {
-        square(0.75, 1 / 4.0);
-    } else if (filter == "tent") {
-        for (int y = -1; y <= 1; ++y)
-            for (int x = -1; x <= 1; ++x)
-                taps.push_back({double(x), double(y), (2 - std::abs(x)) * (2 - std::abs(y)) / 16.0});
-    } else if (filter == "4tap up") {
-        square(0.5, 1 / 4.0);
-    } else { // box, bilinear
-        taps = {{0, 0, 1}};
-    }
-    return taps;
-}
-
-Plane filtered(const Plane& source, int width, int height, const std::string& filter) {
-    const std::vector<Tap> taps = tapsOf(filter);
-    return resampled(source, width, height, [&](double x, double y) {
-        glm::dvec3 sum(0);
-        for (const Tap& tap : taps)
-            sum += source.sample(x + tap.x, y + tap.y) * tap.weight;
-        return sum;
-    });
-}
-
-Plane added(Plane left, const Plane& right) {
-    for (std::size_t i = 0; i < left.pixels.size(); ++i)
-        left.pixels[i] += right.pixels[i];
-    return left;
-}
-
-std::string upName(const std::string& filter) { return filter == "4tap" ? "4tap up" : filter; }
 
 // The distance between halfs at a value.
 double halfUlp(double value) {
@@ -244,17 +114,7 @@ class Frames {
     }
 
     Plane read(const std::string& name, const char* extension = ".exr") const {
-        const Image image = loadImage(folder_.path() / (name + extension));
-        Plane plane(image.width, image.height);
-        const auto channels = static_cast<std::size_t>(image.channels);
-        std::visit(
-            [&](const auto& values) {
-                for (std::size_t i = 0; i < plane.pixels.size(); ++i)
-                    for (std::size_t c = 0; c < 3; ++c)
-                        plane.pixels[i][static_cast<int>(c)] = values.at(i * channels + c);
-            },
-            image.pixels);
-        return plane;
+        return planeOf(loadImage(folder_.path() / (name + extension)));
     }
 
   private:
@@ -291,7 +151,7 @@ TEST_F(BloomTruth, theBrightPassIsItsFormulaForEveryKarisWeight) {
         for (const std::string karis : karis_kinds) {
             const Plane hdr = read(size + " hdr");
             const Plane actual = read(size + " bright " + karis);
-            const Plane expected = bright(hdr, actual.width, actual.height, karis);
+            const Plane expected = bright(hdr, actual.width, actual.height, karis, threshold, knee);
             const Error error = errorOf(actual, expected);
             print(size + " bright " + karis, error);
             EXPECT_LE(error.ulps(), karis == "texel" ? bright_texel_ulps : bright_mean_ulps)
@@ -320,7 +180,7 @@ TEST_F(BloomTruth, everyDownFilterIsItsWeights) {
         for (const std::string filter : down_filters)
             for (int i = 1; i < levels; ++i) {
                 const std::string source =
-                    i == 1 ? " bright seed" : " down" + std::to_string(i - 1) + " " + filter;
+                    i == 1 ? " bright average" : " down" + std::to_string(i - 1) + " " + filter;
                 const std::string name = size + " down" + std::to_string(i) + " " + filter;
                 const Plane actual = read(name);
                 const Error error =
@@ -338,7 +198,8 @@ TEST_F(BloomTruth, everyUpFilterIsItsWeightsAddedToWhatWasThere) {
                 const Plane below =
                     read(i == levels - 2 ? size + " down" + std::to_string(levels - 1) + " 5tap"
                                          : size + " up" + std::to_string(i + 1) + " " + filter);
-                const Plane before = read(i == 0 ? size + " bright seed" : size + " down" + number + " 5tap");
+                const Plane before =
+                    read(i == 0 ? size + " bright average" : size + " down" + number + " 5tap");
                 const std::string name = size + " up" + number + " " + filter;
                 const Plane actual = read(name);
                 const Plane lifted = filtered(below, actual.width, actual.height, upName(filter));
@@ -352,7 +213,7 @@ TEST_F(BloomTruth, everyUpFilterIsItsWeightsAddedToWhatWasThere) {
 TEST_F(BloomTruth, theWholeChainIsTheDoubleChainButForItsRoundings) {
     for (const std::string size : sizes) {
         const Plane actual = read(size + " bloom0");
-        Plane level = bright(read(size + " hdr"), actual.width, actual.height, "seed");
+        Plane level = bright(read(size + " hdr"), actual.width, actual.height, "average", threshold, knee);
         std::vector<Plane> pyramid = {level};
         for (int i = 1; i < levels; ++i) {
             const Plane like = read(size + " down" + std::to_string(i) + " 5tap");

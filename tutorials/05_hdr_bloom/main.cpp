@@ -2,6 +2,7 @@
 // white; what is too bright is blurred down and up a pyramid, added back as bloom, and the sum is tone
 // mapped.
 #include "01_hdr/tone_map.hpp"
+#include "04_pyramid_bloom/pyramid_bloom.hpp"
 #include "app/camera.hpp"
 #include "run/run.hpp"
 #include "swarm.hpp"
@@ -13,25 +14,17 @@
 namespace {
 using namespace gll;
 
-constexpr int max_levels = 8;
-
 struct HdrBloomOptions {
     Settings all;
     // excerpt: settings
     Toggle bloom = all.toggle("bloom", true, "whether bright light spills over its edges");
     Integer levels =
-        all.integer("levels", 5, 1, max_levels, "bloom levels, each half the size of the one before");
+        all.integer("levels", 5, 1, max_bloom_levels, "bloom levels, each half the size of the one before");
     Number threshold = all.number("threshold", 1.0, 0, 1000, "luminance from which a pixel blooms");
     Number knee =
         all.number("knee", 0.6, 0, 100, "half the width of the soft step at the threshold, luminance");
     Number intensity = all.number("intensity", 0.7, 0, 100, "how much bloom is added to the scene");
-    Choice karis =
-        all.choice("karis", "seed", {"seed", "texel", "none"},
-                   "Karis weight against fireflies: on the average of four texels, on each, or none");
-    Choice down_filter =
-        all.choice("down_filter", "5tap", {"5tap", "13tap", "4tap", "box"}, "how levels are halved");
-    Choice up_filter =
-        all.choice("up_filter", "tent", {"tent", "4tap", "bilinear"}, "how levels are doubled");
+    PyramidFilters filters{all, "average", "5tap"};
     ToneMapOptions display{all, "aces_narkowicz", "gamma22"};
     Integer instances = all.integer("instances", 1000, 1, 1'000'000, "number of cubes");
     Number boost = all.number("boost", 8, 0, 1000, "how many times brighter a glowing cube is");
@@ -47,26 +40,17 @@ class HdrBloom final : public Rung {
     using Options = HdrBloomOptions;
 
     HdrBloom(RungResources resources, const Options& options)
-        : shaders_(resources.shaders), options_(options) {}
+        : shaders_(resources.shaders), options_(options), bloom_(resources.shaders) {}
 
+    // excerpt: frame
     void render(Frame& frame) override {
-        resize(frame.size());
+        hdr_.resize(frame.size());
         drawScene(frame);
-        if (options_.bloom) drawBloom(frame);
-        composite(frame);
-    }
-
-  private:
-    // excerpt: resize
-    void resize(glm::ivec2 size) {
-        hdr_.resize(size);
-        while (static_cast<int>(bloom_.size()) < options_.levels)
-            bloom_.emplace_back(Framebuffer({{"bloom" + std::to_string(bloom_.size())}}, {1, 1}));
-        for (int i = 0; i < options_.levels; ++i)
-            level(i).resize(glm::max(glm::ivec2(size.x >> (i + 1), size.y >> (i + 1)), 1));
+        composite(frame, options_.bloom ? &bloom_.draw(frame, hdr_.color(), bloomParameters()) : nullptr);
     }
     // end excerpt
 
+  private:
     // excerpt: scene
     void drawScene(Frame& frame) {
         const float orbit_rad = frame.time_s() * 0.3F;
@@ -92,40 +76,30 @@ class HdrBloom final : public Rung {
     // end excerpt
 
     // excerpt: bloom
-    void drawBloom(Frame& frame) {
-        frame.pass("bright", level(0),
-                   {.program = shaders_.fullScreen("05_hdr_bloom/bright.frag", options_.karis.defines()),
-                    .inputs = {{"hdr", hdr_.color()}},
-                    .uniforms = {{"threshold", options_.threshold}, {"knee", options_.knee}}});
-        for (int i = 1; i < options_.levels; ++i)
-            frame.pass(
-                "down" + std::to_string(i), level(i),
-                {.program = shaders_.fullScreen("05_hdr_bloom/down.frag", options_.down_filter.defines()),
-                 .inputs = {{"source", level(i - 1).color()}}});
-        for (int i = options_.levels - 2; i >= 0; --i)
-            frame.pass("up" + std::to_string(i), level(i),
-                       {.program = shaders_.fullScreen("05_hdr_bloom/up.frag", options_.up_filter.defines()),
-                        .inputs = {{"source", level(i + 1).color()}},
-                        .blend = Blend::add});
+    PyramidBloomParameters bloomParameters() const {
+        return {.filters = options_.filters,
+                .levels = options_.levels,
+                .threshold = options_.threshold,
+                .knee = options_.knee,
+                .blur_radius = 0};
     }
     // end excerpt
 
     // excerpt: composite
-    void composite(Frame& frame) {
-        const Program& program = shaders_.fullScreen(
-            "lib/present.frag", options_.display.defines() + Defines{{"BLOOM", options_.bloom ? "1" : "0"}});
+    void composite(Frame& frame, const Texture* bloom) {
+        const Defines with_bloom = {{"BLOOM", bloom != nullptr ? "1" : "0"}};
+        const Program& program =
+            shaders_.fullScreen("lib/present.frag", options_.display.defines() + with_bloom);
         std::vector<UniformSetting> uniforms = usedBy(program, options_.display.uniforms());
         std::vector<Input> inputs = {{"hdr", hdr_.color()}};
-        if (options_.bloom) {
-            inputs.push_back({"bloom", level(0).color()});
+        if (bloom != nullptr) {
+            inputs.push_back({"bloom", *bloom});
             uniforms.push_back({"intensity", options_.intensity});
         }
         frame.pass("composite", frame.presented(),
                    {.program = program, .inputs = inputs, .uniforms = uniforms});
     }
     // end excerpt
-
-    Framebuffer& level(int i) { return bloom_[static_cast<std::size_t>(i)]; }
 
     // The cubes, made anew where a setting that they are made from has changed.
     const Mesh& swarm() {
@@ -142,7 +116,7 @@ class HdrBloom final : public Rung {
     Framebuffer hdr_{{{.name = "hdr", .format = Format::rgba16f},
                       {.name = "depth", .format = Format::depth24, .filter = Filter::nearest}},
                      {1, 1}};
-    std::vector<Framebuffer> bloom_; // level i is 1 / 2^(i + 1) of the frame's size, RGBA16F, bilinear
+    PyramidBloom bloom_;
     std::optional<Mesh> swarm_;
     std::array<int, 3> swarm_made_from_ = {};
 };

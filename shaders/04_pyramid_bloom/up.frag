@@ -34,6 +34,11 @@ vec3 tap(float x, float y) { return texture(source, uv + vec2(x, y) / vec2(textu
 vec3 up() {
 #if UP_FILTER == UP_FILTER_4TAP
     return 0.25 * (tap(-0.5, -0.5) + tap(0.5, -0.5) + tap(-0.5, 0.5) + tap(0.5, 0.5));
+#elif UP_FILTER == UP_FILTER_DUAL
+    // Bjorge 2015, the way up of the dual filter.
+    vec3 inner = tap(-0.5, -0.5) + tap(0.5, -0.5) + tap(-0.5, 0.5) + tap(0.5, 0.5);
+    vec3 outer = tap(-1.0, 0.0) + tap(1.0, 0.0) + tap(0.0, -1.0) + tap(0.0, 1.0);
+    return (2.0 * inner + outer) / 12.0;
 #elif UP_FILTER == UP_FILTER_BILINEAR
     return tap(0.0, 0.0);
 #endif

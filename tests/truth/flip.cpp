@@ -1,0 +1,423 @@
+// Constants and names are those of Andersson et al. 2020, and of 2021 where exposures and tone are concerned.
+#include "truth/flip.hpp"
+
+#include "truth/color.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+
+namespace gll::truth {
+namespace {
+
+using Taps = std::vector<double>; // an odd number of weights, the middle one at the pixel itself
+
+// The contrast sensitivity of the opponent channels as sums of Gaussians; in space
+// a sqrt(pi / b) exp(-pi^2 x^2 / b), x in degrees.
+constexpr double b_achromatic = 0.0047;
+constexpr double b_red_green = 0.0053;
+constexpr double a1_blue_yellow = 34.1;
+constexpr double b1_blue_yellow = 0.04; // the widest
+constexpr double a2_blue_yellow = 13.5;
+constexpr double b2_blue_yellow = 0.025;
+
+// The exponents and the knee of the error's curve, and the feature filters' width.
+constexpr double q_c = 0.7;
+constexpr double p_c = 0.4;
+constexpr double p_t = 0.95;
+constexpr double feature_width_deg = 0.082; // from the peak to the trough of the eye's edge detector
+constexpr double q_f = 0.5;
+
+// HDR-FLIP's tone curve: Narkowicz's fit with his exposure of 0.6 taken back.
+constexpr double k0 = 0.6 * 0.6 * 2.51;
+constexpr double k1 = 0.6 * 0.03;
+constexpr double k3 = 0.6 * 0.6 * 2.43;
+constexpr double k4 = 0.6 * 0.59;
+constexpr double k5 = 0.14;
+constexpr double exposed_to = 0.85; // display light that the largest and the median luminance become
+
+double tone(double x) { return std::clamp((k0 * x + k1) * x / ((k3 * x + k4) * x + k5), 0.0, 1.0); }
+
+// The light that tone() makes t of.
+double toneInverse(double t) {
+    const double p = (k1 - k4 * t) / (k0 - k3 * t) / 2;
+    return -p + std::sqrt(p * p + k5 * t / (k0 - k3 * t));
+}
+
+Taps gaussian(double sigma_px, int radius) {
+    Taps taps;
+    for (int x = -radius; x <= radius; ++x)
+        taps.push_back(std::exp(-x * x / (2 * sigma_px * sigma_px)));
+    return taps;
+}
+
+double sum(const Taps& taps) { return std::accumulate(taps.begin(), taps.end(), 0.0); }
+
+Taps scaled(Taps taps, double factor) {
+    for (double& tap : taps)
+        tap *= factor;
+    return taps;
+}
+
+Taps normalized(const Taps& taps) { return scaled(taps, 1 / sum(taps)); }
+
+// Positive weights to the sum 1 and negative ones to -1, so that a step from black to white is an edge of 1.
+Taps balanced(Taps taps) {
+    double positive = 0;
+    double negative = 0;
+    for (const double tap : taps)
+        (tap > 0 ? positive : negative) += std::abs(tap);
+    for (double& tap : taps)
+        tap /= tap > 0 ? positive : negative;
+    return taps;
+}
+
+// All filters of one viewing distance. Each is a product of one in x and one in y, or a sum of two such, as
+// they come from Gaussians; and as one factor is positive, so is normalising.
+struct Filters {
+    Taps achromatic;
+    Taps red_green;
+    std::array<Taps, 2> blue_yellow_down; // the two Gaussians; their shares are in these
+    std::array<Taps, 2> blue_yellow_across;
+    Taps feature_smooth;
+    Taps feature_edge;  // first derivative
+    Taps feature_point; // second derivative
+
+    explicit Filters(double pixels_per_degree) {
+        const auto sigmaPx = [&](double b) {
+            return std::sqrt(b / 2) / std::numbers::pi * pixels_per_degree;
+        };
+        const int radius = static_cast<int>(std::ceil(3 * sigmaPx(b1_blue_yellow)));
+        achromatic = normalized(gaussian(sigmaPx(b_achromatic), radius));
+        red_green = normalized(gaussian(sigmaPx(b_red_green), radius));
+        const Taps wide = gaussian(sigmaPx(b1_blue_yellow), radius);
+        const Taps narrow = gaussian(sigmaPx(b2_blue_yellow), radius);
+        const double wide_share = a1_blue_yellow / std::sqrt(b1_blue_yellow);
+        const double narrow_share = a2_blue_yellow / std::sqrt(b2_blue_yellow);
+        const double whole = wide_share * sum(wide) * sum(wide) + narrow_share * sum(narrow) * sum(narrow);
+        blue_yellow_across = {wide, narrow};
+        blue_yellow_down = {scaled(wide, wide_share / whole), scaled(narrow, narrow_share / whole)};
+
+        const double sigma = feature_width_deg / 2 * pixels_per_degree;
+        const int feature_radius = static_cast<int>(std::ceil(3 * sigma));
+        feature_smooth = gaussian(sigma, feature_radius);
+        feature_edge = feature_smooth;
+        feature_point = feature_smooth;
+        for (int x = -feature_radius; x <= feature_radius; ++x) {
+            const auto i = static_cast<std::size_t>(x + feature_radius);
+            feature_edge[i] *= -x;
+            feature_point[i] *= x * x / (sigma * sigma) - 1;
+        }
+        feature_smooth = normalized(feature_smooth);
+        feature_edge = balanced(feature_edge);
+        feature_point = balanced(feature_point);
+    }
+};
+
+// One channel of a picture, row after row.
+struct Plane {
+    int width = 0;
+    int height = 0;
+    std::vector<double> values;
+
+    const double* row(int y) const {
+        return values.data() +
+               static_cast<std::size_t>(std::clamp(y, 0, height - 1)) * static_cast<std::size_t>(width);
+    }
+};
+
+// out[x] = sum over k of taps[k] * rows[k][x]. Columns go in blocks that stay in registers over all taps.
+void weigh(const Taps& taps, const double* const* rows, int width, double* out) {
+    constexpr int block = 8;
+    int x = 0;
+    for (; x + block <= width; x += block) {
+        std::array<double, block> sums{};
+        for (std::size_t k = 0; k < taps.size(); ++k)
+            for (int i = 0; i < block; ++i)
+                sums[static_cast<std::size_t>(i)] += taps[k] * rows[k][x + i];
+        std::copy(sums.begin(), sums.end(), out + x);
+    }
+    for (; x < width; ++x) {
+        out[x] = 0;
+        for (std::size_t k = 0; k < taps.size(); ++k)
+            out[x] += taps[k] * rows[k][x];
+    }
+}
+
+// Filters single rows of one picture; holds what it needs in between, so that no row allocates.
+class RowFilter {
+  public:
+    // Row y of the plane through taps in y; what across() works on.
+    void down(const Plane& plane, int y, const Taps& taps) {
+        const int radius = static_cast<int>(taps.size() / 2);
+        rows_.resize(taps.size());
+        for (int k = -radius; k <= radius; ++k)
+            rows_[static_cast<std::size_t>(k + radius)] = plane.row(y + k);
+        width_ = plane.width;
+        smoothed_.resize(static_cast<std::size_t>(width_));
+        weigh(taps, rows_.data(), width_, smoothed_.data());
+    }
+    // That row through taps in x.
+    void across(const Taps& taps, std::vector<double>& out) {
+        const std::size_t radius = taps.size() / 2;
+        padded_.assign(radius, smoothed_.front());
+        padded_.insert(padded_.end(), smoothed_.begin(), smoothed_.end());
+        padded_.insert(padded_.end(), radius, smoothed_.back());
+        rows_.resize(taps.size());
+        for (std::size_t k = 0; k < taps.size(); ++k)
+            rows_[k] = padded_.data() + k;
+        out.resize(smoothed_.size());
+        weigh(taps, rows_.data(), width_, out.data());
+    }
+
+  private:
+    int width_ = 0;
+    std::vector<const double*> rows_;
+    std::vector<double> smoothed_;
+    std::vector<double> padded_;
+};
+
+// One picture in YyCxCz, the linear version of CIELAB that light is blurred in.
+struct Opponent {
+    Plane yy, cx, cz;
+};
+
+// To XYZ in units of the white's.
+glm::dmat3 relativeXyzFromRgb() {
+    const glm::dvec3 white = xyzFromBt709() * glm::dvec3(1);
+    glm::dmat3 matrix = xyzFromBt709();
+    for (int column = 0; column < 3; ++column)
+        matrix[column] /= white;
+    return matrix;
+}
+
+Opponent opponentOf(const ColorImage& display_light) {
+    Opponent result;
+    for (Plane* plane : {&result.yy, &result.cx, &result.cz}) {
+        plane->width = display_light.width;
+        plane->height = display_light.height;
+        plane->values.reserve(display_light.pixels.size());
+    }
+    const glm::dmat3 relative_xyz = relativeXyzFromRgb();
+    for (const glm::dvec3& light : display_light.pixels) {
+        const glm::dvec3 xyz = relative_xyz * glm::clamp(light, 0.0, 1.0);
+        result.yy.values.push_back(116 * xyz.y - 16);
+        result.cx.values.push_back(500 * (xyz.x - xyz.y));
+        result.cz.values.push_back(200 * (xyz.y - xyz.z));
+    }
+    return result;
+}
+
+// CIELAB with Hunt's adjustment: chroma fades with lightness.
+glm::dvec3 huntLab(const glm::dvec3& display_light) {
+    const glm::dvec3 lab = cieLab(display_light);
+    return {lab.x, 0.01 * lab.x * lab.y, 0.01 * lab.x * lab.z};
+}
+
+// HyAB (Abasi et al. 2020): city blocks in lightness, a straight line in chroma.
+double hyab(const glm::dvec3& one, const glm::dvec3& other) {
+    return std::abs(one.x - other.x) + std::hypot(one.y - other.y, one.z - other.z);
+}
+
+// Both of a row's results for one picture: blurred colours, and how much of an edge and of a point it has.
+struct Row {
+    std::vector<glm::dvec3> hunt_lab;
+    std::vector<double> edge;
+    std::vector<double> point;
+};
+
+class RowAnalysis {
+  public:
+    RowAnalysis(const Opponent& opponent, const Filters& filters)
+        : opponent_(opponent), filters_(filters), rgb_(glm::inverse(relativeXyzFromRgb())) {}
+
+    const Row& analyse(int y) {
+        const auto width = static_cast<std::size_t>(opponent_.yy.width);
+        blurColors(y);
+        row_.hunt_lab.resize(width);
+        for (std::size_t x = 0; x < width; ++x) {
+            const double relative_y = (yy_[x] + 16) / 116;
+            const glm::dvec3 relative_xyz(relative_y + cx_[x] / 500, relative_y,
+                                          relative_y - (cz_[x] + cz_narrow_[x]) / 200);
+            row_.hunt_lab[x] = huntLab(glm::clamp(rgb_ * relative_xyz, 0.0, 1.0));
+        }
+        // Features are those of the achromatic channel in [0, 1], that is (Yy + 16) / 116; of a sum of
+        // weights that is 0 the constant does not matter.
+        features(y, filters_.feature_edge, row_.edge);
+        features(y, filters_.feature_point, row_.point);
+        return row_;
+    }
+
+  private:
+    void blurColors(int y) {
+        filter_.down(opponent_.yy, y, filters_.achromatic);
+        filter_.across(filters_.achromatic, yy_);
+        filter_.down(opponent_.cx, y, filters_.red_green);
+        filter_.across(filters_.red_green, cx_);
+        filter_.down(opponent_.cz, y, filters_.blue_yellow_down[0]);
+        filter_.across(filters_.blue_yellow_across[0], cz_);
+        filter_.down(opponent_.cz, y, filters_.blue_yellow_down[1]);
+        filter_.across(filters_.blue_yellow_across[1], cz_narrow_);
+    }
+
+    // The length of the gradient that a derivative in x and the same in y make.
+    void features(int y, const Taps& derivative, std::vector<double>& out) {
+        filter_.down(opponent_.yy, y, filters_.feature_smooth);
+        filter_.across(derivative, across_);
+        filter_.down(opponent_.yy, y, derivative);
+        filter_.across(filters_.feature_smooth, down_);
+        out.resize(across_.size());
+        for (std::size_t x = 0; x < out.size(); ++x)
+            out[x] = std::sqrt(across_[x] * across_[x] + down_[x] * down_[x]) / 116;
+    }
+
+    const Opponent& opponent_;
+    const Filters& filters_;
+    glm::dmat3 rgb_; // from XYZ in units of the white's
+    RowFilter filter_;
+    std::vector<double> yy_, cx_, cz_, cz_narrow_, across_, down_;
+    Row row_;
+};
+
+Filters filtersFor(double pixels_per_degree) {
+    if (!(pixels_per_degree >= least_pixels_per_degree && pixels_per_degree <= most_pixels_per_degree))
+        throw std::invalid_argument("flip: " + std::to_string(pixels_per_degree) +
+                                    " pixels per degree, give 1 to 1000");
+    return Filters(pixels_per_degree);
+}
+
+ScalarImage flipWith(const Filters& filters, const ColorImage& display_light,
+                     const ColorImage& reference_display_light) {
+    const Opponent opponent = opponentOf(display_light);
+    const Opponent reference_opponent = opponentOf(reference_display_light);
+    RowAnalysis analysis(opponent, filters);
+    RowAnalysis reference_analysis(reference_opponent, filters);
+    // The largest distance in the RGB cube is that of green and blue.
+    const double c_max = std::pow(hyab(huntLab({0, 1, 0}), huntLab({0, 0, 1})), q_c);
+    ScalarImage map(display_light.width, display_light.height);
+    for (int y = 0; y < map.height; ++y) {
+        const Row& one = analysis.analyse(y);
+        const Row& other = reference_analysis.analyse(y);
+        for (int x = 0; x < map.width; ++x) {
+            const auto i = static_cast<std::size_t>(x);
+            const double distance = std::pow(hyab(one.hunt_lab[i], other.hunt_lab[i]), q_c);
+            const double color_error =
+                distance < p_c * c_max ? distance * p_t / (p_c * c_max)
+                                       : p_t + (distance - p_c * c_max) / (c_max - p_c * c_max) * (1 - p_t);
+            const double feature =
+                std::max(std::abs(one.edge[i] - other.edge[i]), std::abs(one.point[i] - other.point[i]));
+            const double feature_error = std::pow(feature / std::numbers::sqrt2, q_f);
+            map.at(x, y) = std::clamp(std::pow(color_error, 1 - feature_error), 0.0, 1.0);
+        }
+    }
+    return map;
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    if (values.size() % 2 == 1) return *middle;
+    return (*middle + *std::max_element(values.begin(), middle)) / 2;
+}
+
+ColorImage exposed(const ColorImage& linear_image, double exposure_ev) {
+    ColorImage result = linear_image;
+    const double factor = std::exp2(exposure_ev);
+    for (glm::dvec3& color : result.pixels)
+        for (int c = 0; c < 3; ++c)
+            color[c] = tone(std::max(color[c], 0.0) * factor);
+    return result;
+}
+
+} // namespace
+
+ScalarImage flip(const ColorImage& display_light, const ColorImage& reference_display_light,
+                 double pixels_per_degree) {
+    requireComparable("flip", display_light, reference_display_light);
+    return flipWith(filtersFor(pixels_per_degree), display_light, reference_display_light);
+}
+
+double Exposures::at(int i) const {
+    return count > 1 ? start_ev + (stop_ev - start_ev) * i / (count - 1) : start_ev;
+}
+
+Exposures flipExposures(const ColorImage& linear_reference) {
+    requireComparable("flipExposures", linear_reference, linear_reference);
+    std::vector<double> luminances;
+    luminances.reserve(linear_reference.pixels.size());
+    for (const glm::dvec3& color : linear_reference.pixels)
+        luminances.push_back(luminance709(glm::max(color, 0.0)));
+    const double largest = *std::max_element(luminances.begin(), luminances.end());
+    if (largest <= 0) return {};
+    double middle = median(luminances);
+    if (middle <= 0) {
+        std::erase_if(luminances, [](double luminance) { return luminance <= 0; });
+        middle = median(luminances);
+    }
+    const double light = toneInverse(exposed_to); // both ends have this one
+    Exposures result{std::log2(light / largest), std::log2(light / middle), 2};
+    result.count = std::max(2, static_cast<int>(std::ceil(result.stop_ev - result.start_ev)));
+    return result;
+}
+
+HdrFlip hdrFlip(const ColorImage& linear_image, const ColorImage& linear_reference, double pixels_per_degree,
+                const std::function<void(int, int)>& progress) {
+    requireComparable("hdrFlip", linear_image, linear_reference);
+    const Filters filters = filtersFor(pixels_per_degree);
+    HdrFlip result{ScalarImage(linear_image.width, linear_image.height), flipExposures(linear_reference)};
+    for (int i = 0; i < result.exposures.count; ++i) {
+        if (progress) progress(i, result.exposures.count);
+        const double exposure_ev = result.exposures.at(i);
+        const ScalarImage map =
+            flipWith(filters, exposed(linear_image, exposure_ev), exposed(linear_reference, exposure_ev));
+        for (std::size_t p = 0; p < map.pixels.size(); ++p)
+            result.map.pixels[p] = std::max(result.map.pixels[p], map.pixels[p]);
+    }
+    return result;
+}
+
+FlipSummary summary(const ScalarImage& map) {
+    if (map.pixels.empty()) throw std::invalid_argument("summary: an empty map");
+    std::vector<double> sorted = map.pixels;
+    std::sort(sorted.begin(), sorted.end());
+    const double total = sum(sorted);
+    FlipSummary result{total / static_cast<double>(sorted.size()), 0, sorted.back()};
+    double below = 0;
+    for (const double error : sorted) {
+        below += error;
+        if (below < total / 2) continue;
+        result.weighted_median = error;
+        break;
+    }
+    return result;
+}
+
+Image heatMap(const ScalarImage& map) {
+    const std::array<glm::dvec3, 5> colors = {
+        {{0, 0, 0}, {0.28, 0.10, 0.55}, {0.80, 0.18, 0.36}, {1, 0.65, 0.20}, {1, 1, 0.80}}};
+    Image image;
+    image.width = map.width;
+    image.height = map.height;
+    image.channels = 3;
+    image.colour_space = ColourSpace::srgb;
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(3 * map.pixels.size());
+    for (const double error : map.pixels) {
+        const double place = std::clamp(error, 0.0, 1.0) * (colors.size() - 1);
+        const auto from = std::min(static_cast<std::size_t>(place), colors.size() - 2);
+        const glm::dvec3 color = glm::mix(colors[from], colors[from + 1], place - static_cast<double>(from));
+        for (int c = 0; c < 3; ++c)
+            bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * color[c])));
+    }
+    image.pixels = std::move(bytes);
+    return image;
+}
+
+} // namespace gll::truth

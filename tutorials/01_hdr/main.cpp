@@ -1,0 +1,195 @@
+// 01_hdr: a dark hall whose window is hundreds of times brighter than its walls, drawn into a target that
+// keeps such values or one that does not, and brought into a display's range by one tone map or by two, side
+// by side.
+#include "01_hdr/boxes.hpp"
+#include "01_hdr/tone_map.hpp"
+#include "app/camera.hpp"
+#include "app/scene_image.hpp"
+#include "run/run.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <glm/vec4.hpp>
+#include <map>
+
+namespace {
+using namespace gll;
+
+const std::vector<std::string> formats = {"rgba8", "rgb10_a2", "r11f_g11f_b10f", "rgba16f", "rgba32f"};
+
+struct HdrOptions {
+    Settings all;
+    // excerpt: settings
+    Choice format = all.choice("format", "rgba16f", formats, "what the scene is drawn into");
+    ToneMapOptions display{all, "reinhard", "gamma22"};
+    Choice view = all.choice("view", "picture", {"picture", "stops"},
+                             "the picture, or luminance in bands of a stop with clipped pixels striped");
+    Toggle compare = all.toggle("compare", false, "another method to the right of a divider");
+    Number split =
+        all.number("split", 0.5, 0, 1, "where the divider is, of the width; drag it in the window");
+    Choice right_format = all.choice("right_format", "rgba16f", formats, "the format to the right");
+    Choice right_tone_map = all.choice("right_tone_map", "clamp", {tone_maps.begin(), tone_maps.end()},
+                                       "the tone map to the right");
+    Number right_exposure_ev = all.number("right_exposure_ev", 0, -16, 16, "exposure to the right, stops");
+    Number brightness = all.number("brightness", 1, 0, 1e6, "factor on all light of the scene");
+    OrbitSettings orbit{all};
+    // end excerpt
+};
+
+// The lamps on the walls: each nearer one has a third of the light of the one before.
+constexpr int lamp_count = 4;
+constexpr float lamp_intensity[lamp_count] = {3, 1.2F, 0.5F, 0.2F};
+const glm::vec3 lamp_color(1, 0.62F, 0.3F);
+glm::vec3 lampPosition(int i) {
+    return {i % 2 == 0 ? 2.55F : -2.55F, 2.3F, 2.6F + 2.6F * static_cast<float>(i)};
+}
+
+Mesh makeHall() {
+    const glm::vec3 stone(0.62F, 0.58F, 0.52F);
+    const glm::vec3 tile(0.34F, 0.31F, 0.29F);
+    std::vector<Box> boxes = {{{-3.2F, -0.2F, -0.2F}, {3.2F, 0, 14}, tile},
+                              {{-3.2F, 0, -0.2F}, {3.2F, 5.4F, 0}, stone},
+                              {{-3.4F, 0, 0}, {-3, 5.4F, 14}, stone},
+                              {{3, 0, 0}, {3.4F, 5.4F, 14}, stone},
+                              {{-3, 5, 0}, {3, 5.4F, 14}, stone * 0.7F}};
+    for (const float z : {1.3F, 3.9F, 6.5F, 9.1F}) {
+        boxes.push_back({{-3, 4.55F, z - 0.22F}, {3, 5, z + 0.22F}, stone * 0.6F});
+        for (const float x : {-2.3F, 2.3F}) {
+            const auto block = [&](float half, float bottom, float top) {
+                boxes.push_back({{x - half, bottom, z - half}, {x + half, top, z + half}, stone});
+            };
+            block(0.36F, 0, 0.35F);
+            block(0.24F, 0.35F, 4.2F);
+            block(0.36F, 4.2F, 4.55F);
+        }
+    }
+    for (int i = 0; i < lamp_count; ++i) {
+        const glm::vec3 half(0.05F, 0.12F, 0.05F);
+        boxes.push_back({lampPosition(i) - half, lampPosition(i) + half, lamp_color, 20 * lamp_intensity[i]});
+    }
+    return makeBoxes(boxes);
+}
+
+class Hdr final : public Rung {
+  public:
+    using Options = HdrOptions;
+
+    Hdr(RungResources resources, const Options& options)
+        : shaders_(resources.shaders), options_(options), image_(shaders_, resources.given.image) {}
+
+    void render(Frame& frame) override {
+        drawScene(frame, "scene", target("hdr", options_.format.name(), frame.size()));
+        display(frame);
+        if (!options_.compare) return;
+        drawScene(frame, "right_scene", target("right_hdr", options_.right_format.name(), frame.size()));
+        displayRight(frame);
+    }
+
+  private:
+    // excerpt: target
+    // The scene's target of that format: made when first asked for, kept.
+    const Framebuffer& target(const std::string& name, const std::string& format_name, glm::ivec2 size) {
+        static const std::map<std::string, Format> format = {{"rgba8", Format::rgba8},
+                                                             {"rgb10_a2", Format::rgb10_a2},
+                                                             {"r11f_g11f_b10f", Format::r11f_g11f_b10f},
+                                                             {"rgba16f", Format::rgba16f},
+                                                             {"rgba32f", Format::rgba32f}};
+        auto [place, is_new] = targets_.try_emplace(name + format_name, nullptr);
+        if (is_new)
+            place->second = std::make_unique<Framebuffer>(
+                std::vector<Attachment>{
+                    {.name = name, .format = format.at(format_name), .filter = Filter::nearest},
+                    {.name = name + "_depth", .format = Format::depth24, .filter = Filter::nearest}},
+                size);
+        place->second->resize(size);
+        return *place->second;
+    }
+    // end excerpt
+
+    // excerpt: scene
+    void drawScene(Frame& frame, const std::string& pass, const Framebuffer& target) {
+        if (image_) return image_.draw(frame, pass, target);
+        const float time_s = frame.time_s();
+        const float sway = std::sin(time_s * 0.4F);
+        const Camera camera = options_.orbit.apply({.position = {0.9F * sway, 1.75F, 11.2F},
+                                                    .target = {-0.1F * sway, 2.25F, 0},
+                                                    .vertical_field_of_view_deg = 46,
+                                                    .near = 0.1F,
+                                                    .far = 60});
+        const glm::vec3 to_sun = glm::normalize(
+            glm::vec3(0.25F * std::sin(time_s * 0.25F), 0.62F + 0.05F * std::cos(time_s * 0.2F), -1));
+        std::vector<glm::vec3> positions;
+        std::vector<glm::vec3> colors;
+        for (int i = 0; i < lamp_count; ++i) {
+            positions.push_back(lampPosition(i));
+            colors.push_back(lamp_color * lamp_intensity[i]);
+        }
+        const float pixel_angle = 2 * std::tan(glm::radians(camera.vertical_field_of_view_deg) / 2) /
+                                  static_cast<float>(frame.size().y);
+        frame.pass(
+            pass, target,
+            {.program = shaders_.program("01_hdr/hall.vert", "01_hdr/hall.frag",
+                                         {{"LAMPS", std::to_string(lamp_count)}}),
+             .uniforms = {{"clip_from_world", camera.clipFromView(frame.aspect()) * camera.viewFromWorld()},
+                          {"camera_position", camera.position},
+                          {"to_sun", to_sun},
+                          {"pixel_angle", pixel_angle},
+                          {"brightness", options_.brightness},
+                          {"lamp_position", positions},
+                          {"lamp_color", colors}},
+             .mesh = &hall_,
+             .depth_test = DepthTest::less,
+             .cull = Cull::back,
+             .clear_color = glm::vec4(0, 0, 0, 1),
+             .clear_depth = 1.0F});
+    }
+    // end excerpt
+
+    // excerpt: display
+    void display(Frame& frame) {
+        const Program& program =
+            shaders_.fullScreen("01_hdr/display.frag", options_.display.defines() + options_.view.defines() +
+                                                           Defines{{"RIGHT_SIDE", "0"}});
+        frame.pass("display", frame.presented(),
+                   {.program = program,
+                    .inputs = {{"hdr", target("hdr", options_.format.name(), frame.size()).color()}},
+                    .uniforms = usedBy(program, options_.display.uniforms())});
+    }
+    // end excerpt
+
+    // The same again with the other settings, over what is to the right of the divider.
+    void displayRight(Frame& frame) {
+        Defines defines = options_.display.defines() + options_.view.defines() + Defines{{"RIGHT_SIDE", "1"}};
+        const Defines right = options_.right_tone_map.defines();
+        for (Define& define : defines)
+            if (define.name == "TONE_MAP")
+                define.value = right.back().value; // both choices list the same curves
+        const Program& program = shaders_.fullScreen("01_hdr/display.frag", defines);
+        const auto width = static_cast<float>(frame.size().x);
+        std::vector<UniformSetting> uniforms = {{"exposure", std::exp2(options_.right_exposure_ev)},
+                                                {"white_point", options_.display.white_point},
+                                                {"split_px", std::round(options_.split * width)},
+                                                {"frame_width_px", width}};
+        frame.pass(
+            "right_display", frame.presented(),
+            {.program = program,
+             .inputs = {{"hdr", target("right_hdr", options_.right_format.name(), frame.size()).color()}},
+             .uniforms = usedBy(program, uniforms)});
+    }
+
+    ShaderLibrary& shaders_;
+    const Options& options_;
+    SceneImage image_; // --image
+    Mesh hall_ = makeHall();
+    std::map<std::string, std::unique_ptr<Framebuffer>> targets_;
+};
+
+} // namespace
+
+int main(int argc, char** argv) {
+    return gll::run<Hdr>(argc, argv,
+                         {.name = "01_hdr",
+                          .summary = "A dark hall, a bright window: HDR targets and tone maps.",
+                          .takes_image = true});
+}

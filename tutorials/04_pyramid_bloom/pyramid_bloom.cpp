@@ -1,0 +1,137 @@
+// The passes of the pyramid, and the taps of its blur.
+#include "04_pyramid_bloom/pyramid_bloom.hpp"
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+
+namespace gll {
+namespace {
+
+// A Gaussian over nine taps; with both sides the weights add up to 1.
+constexpr std::array gaussian = {0.2270270270F, 0.1945945946F, 0.1216216216F, 0.0540540541F, 0.0162162162F};
+
+// Level i is the source halved i + 1 times, rounded down, at least one pixel a side.
+void resizeChain(std::vector<Framebuffer>& chain, const std::string& name, int count, Format format,
+                 glm::ivec2 source_size) {
+    if (!chain.empty() && chain.front().color().format() != format) chain.clear();
+    while (std::ssize(chain) > count)
+        chain.pop_back();
+    for (int i = 0; i < count; ++i) {
+        const auto size = glm::max(glm::ivec2(source_size.x >> (i + 1), source_size.y >> (i + 1)), 1);
+        if (i < std::ssize(chain))
+            chain[static_cast<std::size_t>(i)].resize(size);
+        else
+            chain.push_back(Framebuffer({{.name = name + std::to_string(i), .format = format}}, size));
+    }
+}
+
+} // namespace
+
+// excerpt: blur_taps
+BlurTaps blurTaps(float radius) {
+    constexpr int most = 4;
+    if (radius > 1) // more texels than taps: nothing to merge
+        return {gaussian[0],
+                {radius, 2 * radius, 3 * radius, 4 * radius},
+                {gaussian.begin() + 1, gaussian.end()}};
+    // A tap between two texels is worth a share of either. So at half a texel's distance the nine taps weigh
+    // no more than five texels.
+    std::array<float, most + 2> texels = {};
+    for (int k = -most; k <= most; ++k) {
+        const float place = static_cast<float>(k) * radius;
+        for (int j = 0; j <= most; ++j)
+            texels[static_cast<std::size_t>(j)] +=
+                gaussian[static_cast<std::size_t>(std::abs(k))] *
+                std::max(1 - std::abs(place - static_cast<float>(j)), 0.0F);
+    }
+    // And a bilinear fetch placed between two texels, nearer to the heavier one, weighs both at once.
+    BlurTaps taps{.centre_weight = texels[0]};
+    for (std::size_t j = 1; j <= most; j += 2)
+        if (const float weight = texels[j] + texels[j + 1]; weight > 0) {
+            taps.offsets.push_back(static_cast<float>(j) + texels[j + 1] / weight);
+            taps.weights.push_back(weight);
+        }
+    return taps;
+}
+// end excerpt
+
+void PyramidBloom::allocate(glm::ivec2 source_size, const PyramidBloomParameters& parameters) {
+    if (parameters.levels < 1 || parameters.levels > max_bloom_levels)
+        throw std::invalid_argument("bloom: " + std::to_string(parameters.levels) + " levels; 1 to " +
+                                    std::to_string(max_bloom_levels) + " are possible");
+    resizeChain(levels_, "bloom", parameters.levels, parameters.format, source_size);
+    resizeChain(blurred_, "blur", parameters.blur_radius > 0 ? parameters.levels : 0, parameters.format,
+                source_size);
+}
+
+const Texture& PyramidBloom::draw(Frame& frame, const Texture& source,
+                                  const PyramidBloomParameters& parameters) {
+    drawDown(frame, source, parameters);
+    drawUp(frame, parameters);
+    return level(0);
+}
+
+// excerpt: down
+void PyramidBloom::drawDown(Frame& frame, const Texture& source, const PyramidBloomParameters& parameters) {
+    allocate(source.size(), parameters);
+    frame.pass(
+        "bright", levels_[0],
+        {.program = shaders_.fullScreen("04_pyramid_bloom/bright.frag", parameters.filters.karis.defines()),
+         .inputs = {{"source", source}},
+         .uniforms = {{"threshold", parameters.threshold}, {"knee", parameters.knee}}});
+    for (std::size_t i = 1; i < levels_.size(); ++i)
+        frame.pass("down" + std::to_string(i), levels_[i],
+                   {.program = shaders_.fullScreen("04_pyramid_bloom/down.frag",
+                                                   parameters.filters.down_filter.defines()),
+                    .inputs = {{"source", levels_[i - 1].color()}}});
+    for (std::size_t i = 0; i < blurred_.size(); ++i)
+        blur(frame, i, parameters.blur_radius);
+}
+// end excerpt
+
+// excerpt: blur
+void PyramidBloom::blur(Frame& frame, std::size_t i, float radius) {
+    const BlurTaps taps = blurTaps(radius);
+    const Program& program =
+        shaders_.fullScreen("04_pyramid_bloom/blur.frag", {{"TAPS", std::to_string(taps.offsets.size())}});
+    const auto direction = [&](const std::string& name, const Framebuffer& target, const Texture& source,
+                               glm::vec2 step) {
+        frame.pass(name + std::to_string(i), target,
+                   {.program = program,
+                    .inputs = {{"source", source}},
+                    .uniforms = {{"direction", step / glm::vec2(source.size())},
+                                 {"centre_weight", taps.centre_weight},
+                                 {"offsets", taps.offsets},
+                                 {"weights", taps.weights}}});
+    };
+    direction("blur_x", blurred_[i], levels_[i].color(), {1, 0});
+    direction("blur_y", levels_[i], blurred_[i].color(), {0, 1});
+}
+// end excerpt
+
+// excerpt: up
+void PyramidBloom::drawUp(Frame& frame, const PyramidBloomParameters& parameters) {
+    const int count = parameters.levels - 1;
+    for (int step = 0; step < count; ++step) {
+        // From the smallest level on, so that each one takes along what it has received. As printed, each
+        // takes the next as it was: the other way round, nothing has been received yet.
+        const int i = parameters.accumulate ? count - 1 - step : step;
+        frame.pass("up" + std::to_string(i), levels_.at(static_cast<std::size_t>(i)),
+                   {.program = shaders_.fullScreen("04_pyramid_bloom/up.frag",
+                                                   parameters.filters.up_filter.defines()),
+                    .inputs = {{"source", level(i + 1)}},
+                    .blend = Blend::add});
+    }
+}
+// end excerpt
+
+void PyramidBloom::composite(Frame& frame, const Texture& source, float strength,
+                             const Framebuffer& target) const {
+    frame.pass("composite", target,
+               {.program = shaders_.fullScreen("04_pyramid_bloom/composite.frag"),
+                .inputs = {{"source", source}, {"bloom", level(0)}},
+                .uniforms = {{"strength", strength}}});
+}
+
+} // namespace gll
