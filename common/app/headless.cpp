@@ -136,6 +136,20 @@ void checkWritable(const std::filesystem::path& out) {
     if (std::filesystem::is_directory(out, error)) throw std::runtime_error(out.string() + ": is a folder");
 }
 
+// As lines of text, or as one line of JSON.
+void printReadings(const std::vector<Reading>& readings, const FrameRequest& request, int frame, bool json) {
+    if (json) {
+        nlohmann::ordered_json line{{"frame", frame}, {"size", {request.size.x, request.size.y}}};
+        for (const Reading& reading : readings)
+            line["readings"][reading.name] = reading.value; // null where it is no finite number
+        std::printf("%s\n", line.dump().c_str());
+        return;
+    }
+    std::printf("frame %d, %dx%d\n", frame, request.size.x, request.size.y);
+    for (const Reading& reading : readings)
+        std::printf("  %-20s %10.6g %s\n", reading.name.c_str(), reading.value, reading.unit.c_str());
+}
+
 void renderRequest(Renderer& renderer, const FrameRequest& request, const Options& options,
                    const RungInfo& info, Settings& settings, Progress& progress) {
     settings.applyPreset(request.preset);
@@ -144,11 +158,18 @@ void renderRequest(Renderer& renderer, const FrameRequest& request, const Option
     if (!request.out.empty()) checkWritable(request.outFor(request.first_frame));
     for (int frame = request.first_frame; frame <= request.last_frame && interrupted == 0;
          frame += request.step) {
+        std::optional<Image> image;
+        if (!request.out.empty() || request.readings) image = renderImage(renderer, request, frame);
         if (!request.out.empty()) {
             const std::filesystem::path out = request.outFor(frame);
-            saveImage(out, forFile(renderImage(renderer, request, frame), out.extension().string()));
+            saveImage(out, forFile(*image, out.extension().string()));
             if (!options.json)
                 std::printf("%s: frame %d, %dx%d\n", out.c_str(), frame, request.size.x, request.size.y);
+        }
+        if (request.readings) {
+            const std::vector<Reading> readings = renderer.readings();
+            if (readings.empty()) throw UsageError("--readings: " + info.name + " has none");
+            printReadings(readings, request, frame, options.json);
         }
         if (request.cost) {
             const CostReport report = measureCost(renderer, info, frame, request.size, options.counter);

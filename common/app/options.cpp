@@ -112,6 +112,8 @@ FrameRequest parseBatchLine(const std::string& line, FrameRequest request) {
         } else if (key == "inject" && value.is_array()) {
             for (const auto& one : value)
                 request.injections.push_back(parseInjection(scalarText(key, one)));
+        } else if (key == "readings" && value.is_boolean()) {
+            request.readings = value.get<bool>();
         } else if (key == "cost" && value.is_boolean()) {
             request.cost = value.get<bool>();
         } else if (key == "set" && value.is_object()) {
@@ -121,9 +123,10 @@ FrameRequest parseBatchLine(const std::string& line, FrameRequest request) {
             for (const auto& setting : value)
                 request.sets.push_back(scalarText(key, setting));
         } else {
-            throw UsageError("\"" + key +
-                             "\" with this value is no key of a batch line; there is size, frame, "
-                             "frames, preset, set (an object or a list), out, target, inject, cost");
+            throw UsageError(
+                "\"" + key +
+                "\" with this value is no key of a batch line; there is size, frame, "
+                "frames, preset, set (an object or a list), out, target, inject, readings, cost");
         }
     }
     if (json.contains("frame") && json.contains("frames"))
@@ -158,8 +161,9 @@ std::vector<FrameRequest> readBatch(const std::string& file, const FrameRequest&
         try {
             requests.push_back(parseBatchLine(line, base));
             checkSettings(requests.back(), settings);
-            if (requests.back().out.empty() && !requests.back().cost)
-                throw UsageError("names no \"out\" and asks for no \"cost\", so nothing would come of it");
+            if (requests.back().out.empty() && !requests.back().readings && !requests.back().cost)
+                throw UsageError(
+                    "names no \"out\" and asks for no \"readings\" or \"cost\", so nothing would come of it");
         } catch (const UsageError& usage) {
             throw UsageError(file + ":" + std::to_string(number) + ": " + usage.what());
         }
@@ -273,13 +277,15 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
     app.add_flag("--settings", options.list_settings, "list settings, presets, targets and passes");
     app.add_option("--batch", batch, "many frames in one process: a JSON object a line, keys as the options")
         ->type_name("FILE");
+    app.add_flag("--readings", options.request.readings,
+                 "print the numbers that the rung reads in the frame, where it has some");
     app.add_flag("--cost", options.request.cost, "measure every pass: instructions, copies (cu), bytes, ms");
     app.add_option("--counter", counter,
                    "what --cost counts with: auto, perf (hardware instructions), callgrind (exact,\n"
                    "slow, needs valgrind), cpu (time) or gpu (timer queries)")
         ->check(CLI::IsMember({"auto", "perf", "callgrind", "cpu", "gpu"}))
         ->type_name("KIND");
-    app.add_flag("--json", options.json, "with --settings or --cost: print JSON");
+    app.add_flag("--json", options.json, "with --settings, --readings or --cost: print JSON");
     if (info.takes_files) {
         app.add_option("--mesh", options.files.mesh, "your own model: .obj, .gltf or .glb")
             ->type_name("FILE");
@@ -320,7 +326,7 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
 
     const bool needs_headless = !options.request.out.empty() || !frames.empty() ||
                                 !options.request.target.empty() || !batch.empty() || options.request.cost ||
-                                !injections.empty();
+                                options.request.readings || !injections.empty();
     if (!context.empty())
         options.context = contextKind(context);
     else if (headless || needs_headless)
@@ -330,7 +336,7 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
     if (options.context == ContextKind::window && needs_headless)
         throw UsageError("--context window writes and measures nothing: leave it out, or use osmesa or egl");
     if (options.context != ContextKind::window && options.request.out.empty() && !options.request.cost &&
-        batch.empty())
+        !options.request.readings && batch.empty())
         options.request.out = info.name + (frames.empty() ? ".png" : "_%04d.png");
     if (options.context == ContextKind::window && frame.empty())
         options.request.first_frame = options.request.last_frame = 1; // a window begins at the beginning

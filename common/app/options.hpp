@@ -38,6 +38,7 @@ struct FrameRequest {
     std::filesystem::path out;     // empty: nothing is written; with a %d where there are several frames
     std::string target;            // empty: the presented frame; a target's name, or a pass's
     std::vector<Injection> injections;
+    bool readings = false;
     bool cost = false;
 
     bool isSequence() const { return first_frame != last_frame; }

@@ -26,6 +26,13 @@ struct RungResources {
     RungFiles given;
 };
 
+// A number that a frame arrived at and that its picture only hints at, such as a metered luminance.
+struct Reading {
+    std::string name; // as a setting's: "adapted_luminance"
+    std::string unit; // empty where it has none
+    double value = 0;
+};
+
 class Rung {
   public:
     virtual ~Rung() = default;
@@ -33,6 +40,10 @@ class Rung {
     // Draws the frame, the last pass into frame.presented(). The picture depends on nothing but the settings,
     // the frame's size and its number.
     virtual void render(Frame& frame) = 0;
+
+    // Of the frame rendered last, in the order to show them; may wait for it to be drawn. Most rungs have
+    // none.
+    virtual std::vector<Reading> readings() { return {}; }
 };
 
 struct RungInfo {
@@ -51,6 +62,9 @@ class Renderer {
     // Renders frame number (from 1) at size (pixels, both at least 1) with the present settings. Throws
     // std::runtime_error on any OpenGL error. What it returns is valid until the next call.
     const std::vector<DrawnPass>& render(int number, glm::ivec2 size, PassObserver* observer = nullptr);
+
+    // What the rung read in the frame rendered last.
+    std::vector<Reading> readings() { return rung_->readings(); }
 
     const Framebuffer& presented() const { return presented_; }
     const Mesh& fullScreenTriangle() const { return triangle_; }

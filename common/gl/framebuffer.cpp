@@ -58,6 +58,7 @@ void Framebuffer::create() {
                                                   .filter = attachment.filter,
                                                   .wrap_x = attachment.wrap,
                                                   .wrap_y = attachment.wrap,
+                                                  .levels = attachment.mipmapped ? levelCount(size_) : 1,
                                                   .compare_depth = attachment.compare_depth});
         GLenum point = GL_DEPTH_ATTACHMENT;
         if (!isDepth(attachment)) {

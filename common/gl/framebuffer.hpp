@@ -18,6 +18,8 @@ struct Attachment {
     Filter filter = Filter::linear;
     Wrap wrap = Wrap::clamp_to_edge;
     bool compare_depth = false;
+    bool mipmapped =
+        false; // with all levels down to 1x1, which Pass::generate_mipmaps fills; drawn to is level 0
 };
 
 class Framebuffer {

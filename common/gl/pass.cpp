@@ -132,6 +132,9 @@ void drawPass(const std::string& name, const Framebuffer& target, const Pass& pa
     setState(target, pass);
     clear(target, pass);
     drawAll(pass, full_screen_triangle);
+    if (!pass.generate_mipmaps) return;
+    for (std::size_t i = 0; i < target.attachments().size(); ++i)
+        if (target.attachments()[i].mipmapped) target.texture(i).generateMipmaps();
 }
 
 double bytesPerPixel(const Framebuffer& target, const Pass& pass) {

@@ -50,6 +50,7 @@ struct Pass {
         {};                                    // slope factor and constant units, as glPolygonOffset has them
     std::optional<glm::vec4> clear_color = {}; // every colour attachment, before drawing
     std::optional<float> clear_depth = {};
+    bool generate_mipmaps = false; // of every mipmapped attachment, from what was drawn; see Texture
 };
 
 // Those of the inputs or uniforms that the program uses: for a pass whose settings choose among variants of a

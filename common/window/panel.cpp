@@ -112,6 +112,8 @@ void Panel::draw(Settings& settings, const PanelState& state) {
         ImGui::Begin("settings (H hides)", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
         ImGui::PushItemWidth(110 * scale_);
         ImGui::Text("frame %d%s, %.2f ms", state.frame, state.paused ? " (paused)" : "", state.frame_time_ms);
+        for (const Reading& reading : state.readings)
+            ImGui::Text("%s %.4g %s", reading.name.c_str(), reading.value, reading.unit.c_str());
         if (!state.message.empty()) {
             ImGui::PushTextWrapPos(230 * scale_);
             ImGui::TextUnformatted(state.message.c_str());

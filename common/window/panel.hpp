@@ -2,7 +2,7 @@
 // declarations.
 #pragma once
 
-#include "app/settings.hpp"
+#include "app/rung.hpp"
 
 #include <string>
 #include <vector>
@@ -23,6 +23,7 @@ struct PanelState {
     bool paused = false;
     double frame_time_ms = 0;         // of drawing, not of waiting for the display
     std::vector<PassTime> pass_times; // empty until asked for
+    std::vector<Reading> readings;    // of the frame shown, where the rung has some
     std::string message;              // the last thing that happened, such as a file written
 };
 

@@ -278,6 +278,7 @@ class RungWindow {
         state_.frame = frame;
         rendered_size_ = size;
         rendered_settings_ = settings_now;
+        readings_are_current_ = false;
     }
 
     void present(glm::ivec2 size) {
@@ -289,6 +290,10 @@ class RungWindow {
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
         glViewport(0, 0, size.x, size.y);
         state_.paused = clock_.paused();
+        if (panel_->visible && !readings_are_current_) { // reading waits for the frame: only for who looks
+            state_.readings = renderer_.readings();
+            readings_are_current_ = true;
+        }
         panel_->draw(settings_, state_);
         context_.debugLog().check("OpenGL, presenting");
         glfwSwapBuffers(context_.window());
@@ -345,6 +350,7 @@ class RungWindow {
     PanelState state_;
     glm::ivec2 rendered_size_{0};
     std::string rendered_settings_;
+    bool readings_are_current_ = false;
     bool save_asked_ = false;
     bool drags_divider_ = false;
     double cursor_x_ = 0;

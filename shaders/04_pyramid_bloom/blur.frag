@@ -1,5 +1,6 @@
 #version 330 core
 // One direction of a Gaussian, in TAPS pairs of bilinear fetches about the centre (see blurTaps()).
+#include "lib/finite.glsl"
 
 in vec2 uv;
 
@@ -18,6 +19,6 @@ void main() {
         vec2 offset = offsets[i] * direction;
         sum += weights[i] * (texture(source, uv - offset).rgb + texture(source, uv + offset).rgb);
     }
-    color = vec4(sum, 1.0);
+    color = vec4(finite(sum), 1.0);
 }
 // end excerpt

@@ -1,5 +1,6 @@
 #version 330 core
 // Adds the glow to the picture it came from. Light adds up, so both are still linear here.
+#include "lib/finite.glsl"
 
 in vec2 uv;
 
@@ -12,6 +13,6 @@ out vec4 color;
 // excerpt: composite
 void main() {
     vec4 original = texelFetch(source, ivec2(gl_FragCoord.xy), 0);
-    color = vec4(original.rgb + texture(bloom, uv).rgb * strength, original.a);
+    color = vec4(original.rgb + finite(texture(bloom, uv).rgb) * strength, original.a);
 }
 // end excerpt

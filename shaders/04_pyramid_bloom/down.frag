@@ -1,6 +1,7 @@
 #version 330 core
 // Halves an image. All offsets are in texels of the source; the pixel's centre lies on the corner of four of them, so
 // that every whole-texel step is again the average of four.
+#include "lib/finite.glsl"
 
 in vec2 uv;
 
@@ -38,4 +39,4 @@ vec3 down() {
 }
 // end excerpt
 
-void main() { color = vec4(down(), 1.0); }
+void main() { color = vec4(finite(down()), 1.0); }

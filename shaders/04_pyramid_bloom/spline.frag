@@ -3,6 +3,7 @@
 // lies over it. Splines side by side add up to 1 everywhere, so every texel hands on all of its light, at any size; and a
 // pixel's weights add up to 1, so a flat field stays flat (the argument is Unser 1999, "Splines: A Perfect Fit for Signal
 // and Image Processing"). The bright pass is the same with the linear spline and the bright curve.
+#include "lib/finite.glsl"
 #if BRIGHT
 #include "04_pyramid_bloom/bright_curve.glsl"
 #endif
@@ -87,6 +88,6 @@ void main() {
 #if BRIGHT
     sum = min(sum, brightest_level);
 #endif
-    color = vec4(sum, 1.0);
+    color = vec4(finite(sum), 1.0);
 }
 // end excerpt

@@ -1,5 +1,6 @@
 #version 330 core
 // Doubles an image, smoothing it; blending adds the result to the level above. Offsets are in texels of the source.
+#include "lib/finite.glsl"
 
 in vec2 uv;
 
@@ -68,4 +69,4 @@ vec3 up() {
 #endif
 // end excerpt
 
-void main() { color = vec4(up(), 1.0); }
+void main() { color = vec4(finite(up()), 1.0); }

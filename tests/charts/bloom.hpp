@@ -7,7 +7,7 @@
 
 namespace gll::charts {
 
-// Measures what each filter costs, at 1280x720 and with every method's dial, and writes it as a table:
+// Measures what each filter costs, with every method's dial, and writes it as a table:
 // minutes, under callgrind. Costs are of the bloom alone: its passes, and the fetch that adds it to the
 // picture.
 void measureBloomCosts(const std::filesystem::path& programs, const std::filesystem::path& csv);

@@ -36,6 +36,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"windowAndOut", {"--context", "window", "--out", "a.png"}, 2, {"--context window"}},
         Refusal{"unknownPreset", {"--headless", "--preset", "best"}, 2, {"best", "seed"}},
         Refusal{"unknownTarget", {"--target", "hdd", "--size", "8x8"}, 2, {"hdd", "hdr", "bloom0"}},
+        Refusal{"readingsOfARungWithout", {"--readings", "--size", "8x8"}, 2, {"--readings"}},
         Refusal{"unknownCounter", {"--cost", "--counter", "guess"}, 2, {"--counter"}},
         Refusal{"frameAndFrames", {"--frame", "1", "--frames", "1..2", "--out", "%d.png"}, 2, {"--frame"}}),
     RefusalName());

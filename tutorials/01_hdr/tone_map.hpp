@@ -17,11 +17,12 @@ inline constexpr std::array tone_maps = {
 
 struct ToneMapOptions {
     // Declares the settings with a rung's own defaults.
-    ToneMapOptions(Settings& settings, std::string_view default_tone_map, std::string_view default_encode)
+    ToneMapOptions(Settings& settings, std::string_view default_tone_map, std::string_view default_encode,
+                   double default_white_point = 4)
         : exposure_ev(settings.number("exposure_ev", 0, -16, 16, "exposure before tone mapping, stops")),
           tone_map(settings.choice("tone_map", default_tone_map, {tone_maps.begin(), tone_maps.end()},
                                    "from scene light to display light")),
-          white_point(settings.number("white_point", 4, 0.01, 65504,
+          white_point(settings.number("white_point", default_white_point, 0.01, 65504,
                                       "luminance that becomes white; for reinhard_extended")),
           encode(settings.choice("encode", default_encode, {"gamma22", "srgb"},
                                  "transfer function for the display")) {}

@@ -34,6 +34,16 @@ struct PyramidOptions {
     ToneMapOptions display{all, "aces_hill", "srgb"};
     OrbitSettings orbit{all};
     // end excerpt
+
+    PyramidOptions() {
+        all.preset({"recommended",
+                    "splines by area: all the light, steady and round, at every size",
+                    {{"down_filter", "spline"},
+                     {"up_filter", "spline"},
+                     {"finest", "off"},
+                     {"normalise", "on"},
+                     {"blur", "none"}}});
+    }
 };
 
 Format formatNamed(const std::string& name) {

@@ -34,6 +34,17 @@ struct HdrBloomOptions {
     Integer glow_first = all.integer("glow_first", 0, 0, 1'000'000, "the first cube that glows");
     OrbitSettings orbit{all};
     // end excerpt
+
+    HdrBloomOptions() {
+        all.preset({"recommended",
+                    "splines by area: all the light, steady and round, at every size",
+                    {{"down_filter", "spline"},
+                     {"up_filter", "spline"},
+                     {"finest", "off"},
+                     {"normalise", "on"},
+                     {"karis", "none"},
+                     {"intensity", "0.5"}}});
+    }
 };
 
 class HdrBloom final : public Rung {

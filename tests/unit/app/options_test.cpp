@@ -54,7 +54,7 @@ TEST_F(OptionsTest, headlessWithoutMoreWritesFrameSixtyUnderTheRungsName) {
 
 TEST_F(OptionsTest, whatWritesOrMeasuresNeedsNoWindow) {
     for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-             {"--out", "a.png"}, {"--frames", "1..2"}, {"--target", "hdr"}, {"--cost"}})
+             {"--out", "a.png"}, {"--frames", "1..2"}, {"--target", "hdr"}, {"--readings"}, {"--cost"}})
         EXPECT_EQ(parse(words)->context, ContextKind::headless) << words[0];
     EXPECT_EQ(parse({"--context", "egl"})->context, ContextKind::egl);
     EXPECT_EQ(parse({"--context", "osmesa"})->context, ContextKind::osmesa);
@@ -183,15 +183,18 @@ TEST_F(OptionsTest, aBatchLineHasTheKeysOfTheOptions) {
     const Options options =
         parse(
             {"--size", "32x16", "--set", "knee=2", "--batch",
-             batch(R"({"frame": 3, "out": "a.png", "set": {"knee": 0.1, "bloom": false}, "target": "hdr"}
+             batch(
+                 R"({"frame": 3, "out": "a.png", "set": {"knee": 0.1, "bloom": false}, "target": "hdr"}
 )"
-                   "\n"
-                   R"({"frames": "2..8:3", "out": "b_%d.exr", "size": "8x4", "set": ["knee=1"], "cost": true}
+                 "\n"
+                 R"({"frames": "2..8:3", "out": "b_%d.exr", "size": "8x4", "set": ["knee=1"], "readings": true, "cost": true}
 )"
-                   "\n")})
+                 "\n")})
             .value();
     EXPECT_TRUE(options.is_batch);
     ASSERT_EQ(options.batch.size(), 2U);
+    EXPECT_FALSE(options.batch[0].readings);
+    EXPECT_TRUE(options.batch[1].readings);
     const FrameRequest& first = options.batch[0];
     EXPECT_EQ(first.size, glm::ivec2(32, 16)) << "the command line's stands where the line has none";
     EXPECT_EQ(first.first_frame, 3);
