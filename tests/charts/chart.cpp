@@ -94,8 +94,10 @@ class Labels {
         constexpr Place places[] = {{gap, 0, false},   {-gap, 0, true},  {gap, -11, false}, {gap, 11, false},
                                     {-gap, -11, true}, {-gap, 11, true}, {gap, -22, false}, {gap, 22, false},
                                     {-gap, -22, true}, {-gap, 22, true}};
+        constexpr std::size_t near_places = 6; // farther off, a small text would seem to be another point's
         const Place* chosen = must ? &places[2] : nullptr;
-        for (const Place& place : places) {
+        for (std::size_t i = 0; i < (must ? std::size(places) : near_places); ++i) {
+            const Place& place = places[i];
             const Box box = boxAt(x + place.dx, y + place.dy, text_width, half_height, place.to_the_left);
             if (box.left < plot_left + 2 || box.right > plot_right + 5 || box.top < plot_top - 12 ||
                 box.bottom > plot_bottom - 2)

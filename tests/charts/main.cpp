@@ -1,5 +1,6 @@
 // charts: measures a family of methods and draws what it costs against how far off it is.
 #include "charts/bloom.hpp"
+#include "charts/exposure.hpp"
 #include "charts/formats.hpp"
 #include "charts/tone.hpp"
 
@@ -20,6 +21,7 @@ struct Family {
 
 const std::map<std::string, Family> families = {
     {"bloom", {gll::charts::measureBloomCosts, gll::charts::drawBloomCharts}},
+    {"exposure", {gll::charts::measureExposureCosts, gll::charts::drawExposureCharts}},
     {"formats", {gll::charts::measureFormatCosts, gll::charts::drawFormatCharts}},
     {"tone", {gll::charts::measureToneCosts, gll::charts::drawToneCharts}}};
 
