@@ -33,7 +33,7 @@ std::string exact(double value) {
 // The picture, in pixels from its top left.
 constexpr double width = 900;
 constexpr double height = 520;
-constexpr double plot_left = 85;
+constexpr double plot_left = 112;
 constexpr double plot_right = 665;
 constexpr double plot_top = 55;
 constexpr double plot_bottom = 450;
