@@ -302,6 +302,8 @@ int listSettings(const Options& options, const RungInfo& info, Settings& setting
         for (const Settings::Preset& preset : settings.presets())
             json["presets"].push_back(
                 {{"name", preset.name}, {"help", preset.help}, {"values", preset.values}});
+        for (const Settings::Dial& dial : settings.dials())
+            json["dials"].push_back({{"setting", dial.setting}, {"values", dial.values}});
         json["targets"] = targets;
         json["passes"] = passes;
         if (reason.empty()) json["renderer"] = drawn_by;
@@ -319,6 +321,13 @@ int listSettings(const Options& options, const RungInfo& info, Settings& setting
     std::printf("\npresets (--preset NAME)\n");
     for (const Settings::Preset& preset : settings.presets())
         std::printf("  %-18s %s\n", preset.name.c_str(), preset.help.c_str());
+    if (!settings.dials().empty()) {
+        std::printf("\nwhat --budget chooses from, the most accurate first\n");
+        for (const Settings::Dial& dial : settings.dials())
+            std::printf("  %-18s %s\n", dial.setting.c_str(),
+                        dial.values.empty() ? "from what it is set to downwards"
+                                            : joined(dial.values).c_str());
+    }
     if (reason.empty())
         std::printf("\ntargets (--target NAME: as they are when the frame ends)\n  %s\n\npasses (--target "
                     "NAME: right "

@@ -149,5 +149,18 @@ TEST_F(SettingsTest, handlesStayValidWhileManyMoreAreDeclared) {
     EXPECT_FLOAT_EQ(knee, 3);
 }
 
+TEST(Settings, aDialWithAValueThatDoesNotFitIsRefusedAtOnce) {
+    Settings settings;
+    settings.integer("levels", 5, 1, 8, "help");
+    const Choice filter = settings.choice("filter", "box", {"tent", "box"}, "help");
+    settings.dial({"levels"});
+    settings.dial({"filter", {"tent", "box"}});
+    EXPECT_EQ(settings.dials().size(), 2U);
+    EXPECT_TRUE(filter == "box"); // declaring tries values, and puts the default back
+    EXPECT_THROW(settings.dial({"filter", {"cone"}}), UsageError);
+    EXPECT_THROW(settings.dial({"filter"}), UsageError);
+    EXPECT_THROW(settings.dial({"colour"}), UsageError);
+}
+
 } // namespace
 } // namespace gll::test
