@@ -110,7 +110,7 @@ void Panel::draw(Settings& settings, const PanelState& state) {
         ImGui::SetNextWindowSizeConstraints({std::min(200 * scale_, widest), 0}, {widest, highest});
         ImGui::SetNextWindowBgAlpha(0.72F);
         ImGui::Begin("settings (H hides)", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
-        ImGui::PushItemWidth(110 * scale_);
+        ImGui::PushItemWidth(140 * scale_);
         ImGui::Text("frame %d%s, %.2f ms", state.frame, state.paused ? " (paused)" : "", state.frame_time_ms);
         for (const Reading& reading : state.readings)
             ImGui::Text("%s %.4g %s", reading.name.c_str(), reading.value, reading.unit.c_str());
@@ -119,7 +119,11 @@ void Panel::draw(Settings& settings, const PanelState& state) {
             ImGui::TextUnformatted(state.message.c_str());
             ImGui::PopTextWrapPos();
         }
-        if (ImGui::CollapsingHeader("settings", ImGuiTreeNodeFlags_DefaultOpen)) settingsSection(settings);
+        // In a small window they would hide the picture: there they are opened by whoever wants them.
+        const bool has_room = display.x > 560 * scale_;
+        if (ImGui::CollapsingHeader("settings",
+                                    has_room ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None))
+            settingsSection(settings);
         pass_times_open_ = ImGui::CollapsingHeader("pass times");
         if (pass_times_open_) {
             for (const PassTime& pass : state.pass_times)

@@ -27,6 +27,12 @@ struct AutoExposureRungOptions {
     Choice test_pattern = all.choice("test_pattern", "none", {patterns.begin(), patterns.end()},
                                      "in place of the scene, for trying the meter");
     OrbitSettings orbit{all};
+
+    AutoExposureRungOptions() {
+        all.preset({"recommended",
+                    "the reduction that is right at every size: the default already",
+                    {{"reduction", "area"}}});
+    }
 };
 
 class AutoExposureRung final : public Rung {
