@@ -260,6 +260,9 @@ int listSettings(const Options& options, const RungInfo& info, Settings& setting
     std::vector<std::string> passes;
     std::string drawn_by;
     std::string reason;
+    settings.applyPreset(options.request.preset); // targets and passes depend on the settings
+    for (const std::string& set : options.request.sets)
+        settings.set(set);
     try {
         const auto context = makeHeadlessContext(ContextKind::headless);
         drawn_by = context->info().renderer + ", " + context->info().version;
@@ -297,8 +300,7 @@ int listSettings(const Options& options, const RungInfo& info, Settings& setting
         std::printf("  %-18s %s\n", preset.name.c_str(), preset.help.c_str());
     if (reason.empty())
         std::printf("\ntargets (--target NAME: as they are when the frame ends)\n  %s\n\npasses (--target "
-                    "NAME: right "
-                    "after the pass)\n  %s\n",
+                    "NAME: right after the pass)\n  %s\n",
                     joined(targets).c_str(), joined(passes).c_str());
     else
         std::printf("\ntargets and passes need an OpenGL context: %s\n", reason.c_str());
