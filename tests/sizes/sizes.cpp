@@ -1,6 +1,6 @@
-// Every target at sizes that are tiny, odd, large or a single row, and at two small ones with every setting
-// at all its choices or both ends of its range: rendered without an error, finite everywhere. Usage: sizes
-// RUNG
+// Every target at sizes that are tiny, odd, large or a single row; or at two small ones with every setting at
+// all its choices or both ends of its range: rendered without an error, finite everywhere.
+// Usage: sizes RUNG [settings]
 #include "io/image.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -70,7 +70,7 @@ std::vector<std::string> everySetting(const nlohmann::json& settings) {
     return all;
 }
 
-int check(const std::filesystem::path& rung) {
+int check(const std::filesystem::path& rung, bool every_setting) {
     const TemporaryFolder folder;
     std::vector<Frame> frames;
     std::string lines;
@@ -88,9 +88,11 @@ int check(const std::filesystem::path& rung) {
                 lines += line.dump() + "\n";
             }
     };
-    add("", sizes);
-    for (const std::string& setting : everySetting(listed(rung, "").at("settings")))
-        add(setting, small_sizes);
+    if (every_setting)
+        for (const std::string& setting : everySetting(listed(rung, "").at("settings")))
+            add(setting, small_sizes);
+    else
+        add("", sizes);
     runToSuccess({rung, {"--headless", "--batch", folder.write("batch.jsonl", lines).string()}});
     int failures = 0;
     for (const Frame& frame : frames) {
@@ -107,12 +109,13 @@ int check(const std::filesystem::path& rung) {
 } // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 2) {
-        std::fprintf(stderr, "usage: sizes RUNG\n");
+    const bool every_setting = argc == 3 && std::string(argv[2]) == "settings";
+    if (argc != 2 && !every_setting) {
+        std::fprintf(stderr, "usage: sizes RUNG [settings]\n");
         return 2;
     }
     try {
-        return check(argv[1]);
+        return check(argv[1], every_setting);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "sizes: error: %s\n", error.what());
         return 1;
