@@ -29,6 +29,7 @@ struct AutoExposureRungOptions {
     OrbitSettings orbit{all};
 
     AutoExposureRungOptions() {
+        all.dial({"reduction", {"area", "histogram", "mipmap_r16f", "mipmap_r16"}});
         all.preset({"recommended",
                     "the reduction that is right at every size: the default already",
                     {{"reduction", "area"}}});
@@ -63,6 +64,12 @@ class AutoExposureRung final : public Rung {
                 {"adapted_luminance", "", state[1]},
                 {"key", "", state[2]},
                 {"exposure_ev", "stops", std::log2(double(state[0]))}};
+    }
+
+    // What is metered: all of the frame, unless a histogram is trimmed already.
+    std::vector<std::string> implied() const override {
+        if (options_.exposure.reduction == "histogram") return {};
+        return {"low_percent=0", "high_percent=100"};
     }
 
   private:
