@@ -316,7 +316,7 @@ int listSettings(const Options& options, const RungInfo& info, Settings& setting
     for (const Setting& setting : settings.all()) {
         Setting at_default = setting;
         at_default.value = setting.default_value;
-        std::printf("  %-18s %-16s %s\n  %-18s %-16s (%s)\n", setting.name.c_str(), at_default.text().c_str(),
+        std::printf("  %-18s %-18s %s\n  %-18s %-18s (%s)\n", setting.name.c_str(), at_default.text().c_str(),
                     setting.help.c_str(), "", "", range(setting).c_str());
     }
     std::printf("\npresets (--preset NAME)\n");
