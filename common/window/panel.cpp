@@ -119,11 +119,9 @@ void Panel::draw(Settings& settings, const PanelState& state) {
             ImGui::TextUnformatted(state.message.c_str());
             ImGui::PopTextWrapPos();
         }
-        // In a small window they would hide the picture: there they are opened by whoever wants them.
-        const bool has_room = display.x > 560 * scale_;
-        if (ImGui::CollapsingHeader("settings",
-                                    has_room ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None))
-            settingsSection(settings);
+        // In a small window the list would hide the picture: there it starts closed.
+        ImGui::SetNextItemOpen(display.x > 560 * scale_, ImGuiCond_Once);
+        if (ImGui::CollapsingHeader("settings", ImGuiTreeNodeFlags_DefaultOpen)) settingsSection(settings);
         pass_times_open_ = ImGui::CollapsingHeader("pass times");
         if (pass_times_open_) {
             for (const PassTime& pass : state.pass_times)
