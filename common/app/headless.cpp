@@ -284,6 +284,9 @@ int listSettings(const Options& options, const RungInfo& info, Settings& setting
     std::vector<std::string> passes;
     std::string drawn_by;
     std::string reason;
+    settings.applyPreset(options.request.preset); // targets and passes depend on the settings
+    for (const std::string& set : options.request.sets)
+        settings.set(set);
     try {
         const auto context = makeHeadlessContext(ContextKind::headless);
         drawn_by = context->info().renderer + ", " + context->info().version;
@@ -315,7 +318,7 @@ int listSettings(const Options& options, const RungInfo& info, Settings& setting
     for (const Setting& setting : settings.all()) {
         Setting at_default = setting;
         at_default.value = setting.default_value;
-        std::printf("  %-18s %-16s %s\n  %-18s %-16s (%s)\n", setting.name.c_str(), at_default.text().c_str(),
+        std::printf("  %-18s %-18s %s\n  %-18s %-18s (%s)\n", setting.name.c_str(), at_default.text().c_str(),
                     setting.help.c_str(), "", "", range(setting).c_str());
     }
     std::printf("\npresets (--preset NAME)\n");
@@ -330,8 +333,7 @@ int listSettings(const Options& options, const RungInfo& info, Settings& setting
     }
     if (reason.empty())
         std::printf("\ntargets (--target NAME: as they are when the frame ends)\n  %s\n\npasses (--target "
-                    "NAME: right "
-                    "after the pass)\n  %s\n",
+                    "NAME: right after the pass)\n  %s\n",
                     joined(targets).c_str(), joined(passes).c_str());
     else
         std::printf("\ntargets and passes need an OpenGL context: %s\n", reason.c_str());

@@ -131,7 +131,7 @@ void Panel::draw(Settings& settings, const PanelState& state) {
         ImGui::SetNextWindowSizeConstraints({std::min(200 * scale_, widest), 0}, {widest, highest});
         ImGui::SetNextWindowBgAlpha(0.72F);
         ImGui::Begin("settings (H hides)", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
-        ImGui::PushItemWidth(110 * scale_);
+        ImGui::PushItemWidth(140 * scale_);
         ImGui::Text("frame %d%s, %.2f ms", state.frame, state.paused ? " (paused)" : "", state.frame_time_ms);
         for (const Reading& reading : state.readings)
             ImGui::Text("%s %.4g %s", reading.name.c_str(), reading.value, reading.unit.c_str());
@@ -140,6 +140,8 @@ void Panel::draw(Settings& settings, const PanelState& state) {
             ImGui::TextUnformatted(state.message.c_str());
             ImGui::PopTextWrapPos();
         }
+        // In a small window the list would hide the picture: there it starts closed.
+        ImGui::SetNextItemOpen(display.x > 560 * scale_, ImGuiCond_Once);
         if (ImGui::CollapsingHeader("settings", ImGuiTreeNodeFlags_DefaultOpen)) settingsSection(settings);
         if (!settings.dials().empty() && ImGui::CollapsingHeader("budget")) budgetSection(state);
         pass_times_open_ = ImGui::CollapsingHeader("pass times");

@@ -117,6 +117,12 @@ TEST_F(SettingsTest, theCommandLineBringsTheSameSettingsBack) {
     EXPECT_EQ(all.commandLine(), "");
 }
 
+TEST_F(SettingsTest, aMillionIsWrittenInDigits) {
+    all.integer("instances", 1'000'000, 1, 1'000'000, "help");
+    EXPECT_EQ(all.all().back().text(), "1000000");
+    EXPECT_CONTAINS(messageOf<UsageError>([&] { all.set("instances=0"); }), "from 1 to 1000000");
+}
+
 TEST_F(SettingsTest, aPresetResetsWhatItDoesNotName) {
     all.preset({"soft", "help", {{"knee", "2"}, {"bloom", "off"}}});
     EXPECT_FLOAT_EQ(knee, 0.6F) << "declaring it must not apply it";
