@@ -96,7 +96,8 @@ Result Process::wait(std::chrono::milliseconds limit) {
     const auto end = std::chrono::steady_clock::now() + limit;
     Result result;
     int status = 0;
-    while (waitpid(id_, &status, WNOHANG) == 0) {
+    rusage usage{};
+    while (wait4(id_, &status, WNOHANG, &usage) == 0) {
         if (!result.timed_out && std::chrono::steady_clock::now() > end) {
             kill(id_, SIGKILL);
             result.timed_out = true;
@@ -106,6 +107,7 @@ Result Process::wait(std::chrono::milliseconds limit) {
     id_ = -1;
     result.signalled = WIFSIGNALED(status);
     result.exit_code = result.signalled ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+    result.peak_resident_kib = usage.ru_maxrss;
     result.out = contents(out_);
     result.err = contents(err_);
     return result;

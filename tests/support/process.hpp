@@ -16,7 +16,8 @@ namespace gll::test {
 struct Result {
     int exit_code = -1; // 128 + the signal's number where a signal ended it
     bool signalled = false;
-    bool timed_out = false; // and was killed for it
+    bool timed_out = false;     // and was killed for it
+    long peak_resident_kib = 0; // the most memory it had at once
     std::string out;
     std::string err;
 };
