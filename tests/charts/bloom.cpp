@@ -4,8 +4,8 @@
 
 #include "charts/frames.hpp"
 #include "truth/convolution.hpp"
-#include "truth/errors.hpp"
-#include "truth/flip.hpp"
+#include "measure/errors.hpp"
+#include "measure/flip.hpp"
 
 #include <cmath>
 #include <cstdio>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "support/temporary_folder.hpp"
-#include "truth/raster.hpp"
+#include "measure/raster.hpp"
 
 #include <filesystem>
 #include <glm/vec2.hpp>

@@ -1,8 +1,8 @@
 // Where bloom breaks, in 03, 04 and 05: each failure provoked in every method, its number printed, the
 // recommended method held to a bound, and those known to be bad expected to break it still.
 #include "charts/frames.hpp"
+#include "measure/errors.hpp"
 #include "page_table.hpp"
-#include "truth/errors.hpp"
 
 #include <algorithm>
 #include <cmath>

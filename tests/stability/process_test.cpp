@@ -42,7 +42,7 @@ TEST_P(ResizeStability, twoHundredSizesLeakNothingAndLeaveTheSameFrame) {
              {"--context", "osmesa", "--batch", folder.write("batch.jsonl", lines).string()}});
         EXPECT_FALSE(content(folder / "first.png").empty());
         EXPECT_EQ(content(folder / "first.png"), content(folder / "last.png"));
-        return result.peak_resident_kib;
+        return result.peak_memory_kib;
     };
     const long once = peakKib(1);
     const long ten_times = peakKib(10);

@@ -2,8 +2,8 @@
 // no float can square.
 #include "charts/frames.hpp"
 #include "charts/tone.hpp"
+#include "measure/color.hpp"
 #include "page_table.hpp"
-#include "truth/color.hpp"
 
 #include <cmath>
 #include <cstdio>

@@ -27,6 +27,8 @@ struct AutoExposureRungOptions {
     Choice test_pattern = all.choice("test_pattern", "none", {patterns.begin(), patterns.end()},
                                      "in place of the scene, for trying the meter");
     OrbitSettings orbit{all};
+
+    AutoExposureRungOptions() { all.dial({"reduction", {"area", "histogram", "mipmap_r16f", "mipmap_r16"}}); }
 };
 
 class AutoExposureRung final : public Rung {
@@ -57,6 +59,12 @@ class AutoExposureRung final : public Rung {
                 {"adapted_luminance", "", state[1]},
                 {"key", "", state[2]},
                 {"exposure_ev", "stops", std::log2(double(state[0]))}};
+    }
+
+    // What is metered: all of the frame, unless a histogram is trimmed already.
+    std::vector<std::string> implied() const override {
+        if (options_.exposure.reduction == "histogram") return {};
+        return {"low_percent=0", "high_percent=100"};
     }
 
   private:

@@ -46,6 +46,12 @@ struct GaussianBloomOptions {
     ToneMapOptions display{all, "exposure", "gamma22"};
     OrbitSettings orbit{all};
     // end excerpt
+
+    GaussianBloomOptions() {
+        all.dial({"bloom", {"on", "off"}});
+        all.dial({"blur", {"wide_gaussian", "ping_pong_9tap", "ping_pong_5fetch", "half_resolution_5tap"}});
+        all.dial({"bright_format", {"rgba16f", "r11f_g11f_b10f"}});
+    }
 };
 
 class GaussianBloom final : public Rung {
@@ -64,6 +70,14 @@ class GaussianBloom final : public Rung {
         composite(frame, blurred);
     }
     // end excerpt
+
+    // The width, which each method would choose for itself.
+    std::vector<std::string> implied() const override {
+        const double sigma = sigmaOf(blurPlan());
+        char text[32];
+        std::snprintf(text, sizeof text, "sigma=%.2f", sigma);
+        return sigma > 0 ? std::vector<std::string>{text} : std::vector<std::string>{};
+    }
 
   private:
     // excerpt: targets
