@@ -44,10 +44,11 @@ float metered() {
 }
 // end excerpt
 #elif REDUCTION == REDUCTION_AREA
-// Where every pixel is left out, the frame counts as black.
+// Where every pixel is left out, the frame counts as black. Where the mean is no number, so is what is metered, and the eye
+// stays as it was.
 float metered() {
     vec2 mean = texelFetch(source, ivec2(0), 0).rg;
-    return mean.g > 0.0 ? mean.r / mean.g : log2(epsilon);
+    return mean.g == 0.0 ? log2(epsilon) : mean.r / mean.g;
 }
 #elif REDUCTION == REDUCTION_MIPMAP_R16
 float metered() {
