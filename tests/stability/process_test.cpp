@@ -39,7 +39,9 @@ TEST_P(ResizeStability, twoHundredSizesLeakNothingAndLeaveTheSameFrame) {
         // Any OpenGL error ends the program with 1.
         const test::Result result = test::runToSuccess(
             {folders.programs / GetParam(),
-             {"--context", "osmesa", "--batch", folder.write("batch.jsonl", lines).string()}});
+             {"--context", "osmesa", "--batch", folder.write("batch.jsonl", lines).string()},
+             // AddressSanitizer would keep what was freed.
+             {{"ASAN_OPTIONS", "quarantine_size_mb=1"}}});
         EXPECT_FALSE(content(folder / "first.png").empty());
         EXPECT_EQ(content(folder / "first.png"), content(folder / "last.png"));
         return result.peak_memory_kib;
