@@ -3,8 +3,10 @@
 #pragma once
 
 #include "app/options.hpp"
+#include "process/process.hpp"
 
 #include <functional>
+#include <glm/vec3.hpp>
 #include <string>
 #include <vector>
 
@@ -16,14 +18,15 @@ struct BudgetResult {
     using Sets = std::vector<std::pair<std::string, std::string>>;
     Sets set = {};                            // of the dials, what differs from the present settings
     Sets best = {};                           // every dial as it was measured against
+    Sets picked = {};                         // every dial as it was found
     std::vector<std::string> not_needed = {}; // "levels above 3", "format=rgba16f (rgba8 will do)"
     double error = 0;                         // the largest in all frames looked at, of the budget's kind
     double cost_cu = 0;
     double best_cost_cu = 0;
-    std::string counter = {}; // what costs were counted with
-    int frames = 0;           // looked at
-    int combinations = 0;     // there are
-    int tried = 0;            // were rendered
+    std::string counter = {};           // what costs were counted with
+    std::vector<glm::ivec3> views = {}; // the frames looked at: number, width, height
+    int combinations = 0;               // there are
+    int tried = 0;                      // were rendered
 };
 
 // Called as the search goes on, with what it is at.
@@ -41,5 +44,15 @@ std::optional<BudgetResult> searchBudget(Renderer& renderer, const Options& opti
 // Three lines: what was picked, what it costs, what was not needed.
 std::string budgetText(const BudgetResult& result);
 std::string budgetJson(const BudgetResult& result, const RungInfo& info); // one line, the three among it
+
+// For a window, which goes on drawing meanwhile: this program run a second time to search, and what came of
+// it.
+Command budgetCommand(const Budget& budget, const FrameRequest& request, const RungFiles& files,
+                      const std::string& context);
+struct BudgetAnswer {
+    BudgetResult::Sets set;
+    std::string text; // the three lines, or why there are none
+};
+BudgetAnswer budgetAnswer(const ProcessResult& result);
 
 } // namespace gll

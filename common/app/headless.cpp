@@ -284,6 +284,9 @@ int listSettings(const Options& options, const RungInfo& info, Settings& setting
     std::vector<std::string> passes;
     std::string drawn_by;
     std::string reason;
+    settings.applyPreset(options.request.preset); // targets and passes depend on the settings
+    for (const std::string& set : options.request.sets)
+        settings.set(set);
     try {
         const auto context = makeHeadlessContext(ContextKind::headless);
         drawn_by = context->info().renderer + ", " + context->info().version;
@@ -302,6 +305,8 @@ int listSettings(const Options& options, const RungInfo& info, Settings& setting
         for (const Settings::Preset& preset : settings.presets())
             json["presets"].push_back(
                 {{"name", preset.name}, {"help", preset.help}, {"values", preset.values}});
+        for (const Settings::Dial& dial : settings.dials())
+            json["dials"].push_back({{"setting", dial.setting}, {"values", dial.values}});
         json["targets"] = targets;
         json["passes"] = passes;
         if (reason.empty()) json["renderer"] = drawn_by;
@@ -313,16 +318,22 @@ int listSettings(const Options& options, const RungInfo& info, Settings& setting
     for (const Setting& setting : settings.all()) {
         Setting at_default = setting;
         at_default.value = setting.default_value;
-        std::printf("  %-18s %-16s %s\n  %-18s %-16s (%s)\n", setting.name.c_str(), at_default.text().c_str(),
+        std::printf("  %-18s %-18s %s\n  %-18s %-18s (%s)\n", setting.name.c_str(), at_default.text().c_str(),
                     setting.help.c_str(), "", "", range(setting).c_str());
     }
     std::printf("\npresets (--preset NAME)\n");
     for (const Settings::Preset& preset : settings.presets())
         std::printf("  %-18s %s\n", preset.name.c_str(), preset.help.c_str());
+    if (!settings.dials().empty()) {
+        std::printf("\nwhat --budget chooses from, the most accurate first\n");
+        for (const Settings::Dial& dial : settings.dials())
+            std::printf("  %-18s %s\n", dial.setting.c_str(),
+                        dial.values.empty() ? "from what it is set to downwards"
+                                            : joined(dial.values).c_str());
+    }
     if (reason.empty())
         std::printf("\ntargets (--target NAME: as they are when the frame ends)\n  %s\n\npasses (--target "
-                    "NAME: right "
-                    "after the pass)\n  %s\n",
+                    "NAME: right after the pass)\n  %s\n",
                     joined(targets).c_str(), joined(passes).c_str());
     else
         std::printf("\ntargets and passes need an OpenGL context: %s\n", reason.c_str());

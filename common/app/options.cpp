@@ -296,7 +296,8 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
                    "write this target (as it is at the end) or this pass's (right after it) instead")
         ->type_name("NAME");
     app.add_option("--inject", injections,
-                   "overwrite one pixel right after a pass, such as scene:320,240:nan; may be repeated")
+                   "overwrite one pixel right after a pass, named by itself or its target, such as "
+                   "scene:320,240:nan; may be repeated")
         ->type_name("PASS:X,Y:VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -13,7 +13,10 @@ namespace {
 
 std::string shortest(double value) {
     char buffer[32];
-    const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+    // A million as 1000000, not 1e+06.
+    const bool whole = value == std::floor(value) && std::abs(value) < 1e9;
+    const auto result = whole ? std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed)
+                              : std::to_chars(buffer, buffer + sizeof buffer, value);
     return {buffer, result.ptr};
 }
 

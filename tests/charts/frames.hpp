@@ -1,8 +1,8 @@
 // Frames of a rung, rendered many to a process and read back as linear light.
 #pragma once
 
-#include "support/temporary_folder.hpp"
 #include "measure/raster.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <filesystem>
 #include <glm/vec2.hpp>

@@ -28,7 +28,12 @@ struct AutoExposureRungOptions {
                                      "in place of the scene, for trying the meter");
     OrbitSettings orbit{all};
 
-    AutoExposureRungOptions() { all.dial({"reduction", {"area", "histogram", "mipmap_r16f", "mipmap_r16"}}); }
+    AutoExposureRungOptions() {
+        all.dial({"reduction", {"area", "histogram", "mipmap_r16f", "mipmap_r16"}});
+        all.preset({"recommended",
+                    "the reduction that is right at every size: the default already",
+                    {{"reduction", "area"}}});
+    }
 };
 
 class AutoExposureRung final : public Rung {
@@ -129,7 +134,8 @@ class AutoExposureRung final : public Rung {
                     .uniforms = usedBy(program, {{"white_point", options_.display.white_point}})});
     }
 
-    // Figures and histogram at the lower left, as large as the frame allows; none where they have no room.
+    // Figures and histogram at the lower right, where the window's panel does not reach, as large as the
+    // frame allows; none where they have no room.
     void drawOverlay(Frame& frame) {
         constexpr glm::ivec2 read_out(136, 48);
         constexpr int margin = 4;
@@ -138,14 +144,15 @@ class AutoExposureRung final : public Rung {
         const bool counted = options_.exposure.reduction == "histogram";
         if (!counted) meter_.drawHistogram(frame, hdr_.color());
         const auto scale = static_cast<float>(std::max(1, std::min(size.x / 320, size.y / 240)));
-        const glm::vec2 origin(scale * margin);
+        const glm::vec2 extent = scale * glm::vec2(read_out);
+        const glm::vec2 origin(static_cast<float>(size.x) - extent.x - scale * margin, scale * margin);
         const glm::ivec2 grid = LuminanceMeter::histogramGrid(size);
         frame.pass(
             "overlay", frame.presented(),
             {.program = shaders_.program("02_auto_exposure/overlay.vert", "02_auto_exposure/overlay.frag"),
              .inputs = {{"histogram", meter_.histogram()}, {"exposure", *exposure_state_}},
              .uniforms = {{"origin", origin},
-                          {"extent", scale * glm::vec2(read_out)},
+                          {"extent", extent},
                           {"frame_size", glm::vec2(size)},
                           {"scale", scale},
                           {"samples", static_cast<float>(grid.x * grid.y)},
