@@ -3,9 +3,9 @@
 #include "charts/bloom.hpp"
 
 #include "charts/frames.hpp"
-#include "truth/convolution.hpp"
 #include "measure/errors.hpp"
 #include "measure/flip.hpp"
+#include "truth/convolution.hpp"
 
 #include <cmath>
 #include <cstdio>

@@ -3,8 +3,8 @@
 
 #include "charts/chart.hpp"
 #include "charts/frames.hpp"
-#include "support/process.hpp"
 #include "measure/color.hpp"
+#include "support/process.hpp"
 
 #include <algorithm>
 #include <bit>

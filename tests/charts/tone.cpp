@@ -4,8 +4,8 @@
 
 #include "charts/chart.hpp"
 #include "charts/frames.hpp"
-#include "truth/aces.hpp"
 #include "measure/color.hpp"
+#include "truth/aces.hpp"
 #include "truth/tone_reference.hpp"
 
 #include <functional>

@@ -3,6 +3,7 @@
 #include "page_table.hpp"
 #include "support/process.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -29,7 +30,10 @@ TEST_P(ResizeStability, twoHundredSizesLeakNothingAndLeaveTheSameFrame) {
     const auto peakKib = [&](int rounds) {
         std::string lines;
         const auto line = [&](const char* size, const std::filesystem::path& out) {
-            lines += nlohmann::json{{"size", size}, {"out", (folder / out).string()}}.dump() + "\n";
+            nlohmann::json request{{"size", size}, {"out", (folder / out).string()}};
+            if (GetParam() == std::string("03_gaussian_bloom"))
+                request["set"] = {{"iterations", 1}}; // all five pairs of passes share two targets
+            lines += request.dump() + "\n";
         };
         line(sizes[0], "first.png");
         for (int round = 0; round < rounds; ++round)
@@ -65,34 +69,41 @@ struct GuardedChain {
 
 class GuardCost : public testing::TestWithParam<GuardedChain> {};
 
-// Scenes are left out, and so drawn as cheaply as can be. The display pass of 01 is in that of 03, and what
-// 05 has is in 03 and 04.
+// Scenes are left out, and so drawn as cheaply as can be. The chains that guard the most; the display pass of
+// 01 is in that of 03, what 05 has is in 03 and 04, and in 02 one pass of the meter and the last one check a
+// number.
 TEST_P(GuardCost, staysBelowAFifthOfACopy) {
     const GuardedChain& chain = GetParam();
     const test::TemporaryFolder folder;
-    std::vector<std::string> image;
-    if (chain.set.count("test_pattern") == 0) {
-        charts::writeExr(folder / "grey.exr", truth::ColorImage(8, 8, glm::dvec3(0.5)));
-        image = {"--image", (folder / "grey.exr").string()};
-    }
-    const auto reports =
-        charts::costs(folders.programs / chain.rung,
-                      {chain.set + charts::Set{{"guard", "on"}}, chain.set + charts::Set{{"guard", "off"}}},
-                      {64, 48}, image);
+    charts::writeExr(folder / "grey.exr", truth::ColorImage(8, 8, glm::dvec3(0.5)));
+    // Each twice, and the smaller count: what the driver does once is no cost of a pass.
+    const charts::Set on = chain.set + charts::Set{{"guard", "on"}};
+    const charts::Set off = chain.set + charts::Set{{"guard", "off"}};
+    const auto reports = charts::costs(folders.programs / chain.rung, {on, off, on, off}, {64, 48},
+                                       {"--image", (folder / "grey.exr").string()});
     double cost_cu = 0;
-    for (std::size_t i = 0; i < 2; ++i)
-        for (const auto& pass : reports[i].at("passes"))
-            if (pass.at("name") != "scene") cost_cu += (i == 0 ? 1 : -1) * pass.at("cu").get<double>();
+    for (std::size_t i = 0; i < reports[0].at("passes").size(); ++i) {
+        if (reports[0].at("passes")[i].at("name") == "scene") continue;
+        const auto least = [&](std::size_t first) {
+            const auto cu = [&](std::size_t report) {
+                return reports[report].at("passes")[i].at("cu").get<double>();
+            };
+            return std::min(cu(first), cu(first + 2));
+        };
+        cost_cu += least(0) - least(1);
+    }
     std::printf("guards of %s: %.3f copies\n", chain.rung, cost_cu);
     EXPECT_LT(cost_cu, 0.2);
     EXPECT_GT(cost_cu, 0.02) << "there is no guard any more";
 }
-INSTANTIATE_TEST_SUITE_P(
-    Chains, GuardCost,
-    testing::Values(GuardedChain{"02_auto_exposure",
-                                 {{"adapt", "off"}, {"overlay", "off"}, {"test_pattern", "flat"}}},
-                    GuardedChain{"03_gaussian_bloom", {}}),
-    [](const auto& chain) { return std::string(chain.param.rung); });
+INSTANTIATE_TEST_SUITE_P(Chains, GuardCost,
+                         testing::Values(GuardedChain{"03_gaussian_bloom", {}},
+                                         GuardedChain{"04_pyramid_bloom",
+                                                      {{"down_filter", "spline"},
+                                                       {"up_filter", "spline"},
+                                                       {"finest", "off"},
+                                                       {"blur", "none"}}}),
+                         [](const auto& chain) { return std::string(chain.param.rung); });
 
 } // namespace
 } // namespace gll::stability
