@@ -11,6 +11,7 @@
 #include <linux/perf_event.h>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -211,7 +212,8 @@ class PassMeter final : public PassObserver {
         const double amount = counter_.stop();
         const double time_ms = clockMs(CLOCK_MONOTONIC) - start_ms_;
         if (next_ == passes.size())
-            passes.push_back({pass.name, pass.target->size(), amount, pass.bytes_per_pixel, time_ms});
+            passes.push_back(
+                {pass.name, pass.target->size(), amount, pass.bytes_per_pixel, time_ms, pass.program});
         PassCost& kept = passes[next_++];
         kept.amount = std::min(kept.amount, amount);
         kept.time_ms = std::min(kept.time_ms, time_ms);
@@ -258,6 +260,7 @@ void prepareCost(CounterKind counter, char** argv) {
     const pid_t child = fork();
     if (child == 0) {
         std::signal(SIGINT, SIG_DFL);
+        prctl(PR_SET_PDEATHSIG, SIGKILL); // who ends the waiting process means this one
         setenv(callgrind_file_variable, file.c_str(), 1);
         std::vector<std::string> words = {"valgrind", "--tool=callgrind", "--instr-atstart=no", "-q",
                                           "--callgrind-out-file=" + file};
@@ -384,7 +387,8 @@ std::string costJson(const CostReport& report) {
                                   {"size", {pass.size.x, pass.size.y}},
                                   {"per_pixel", pass.amount / area(pass.size)},
                                   {"cu", copies(report, pass.amount)},
-                                  {"bytes_per_pixel", pass.bytes_per_pixel}});
+                                  {"bytes_per_pixel", pass.bytes_per_pixel},
+                                  {"program", pass.program}});
         if (timed) json["passes"].back()["ms"] = pass.time_ms;
     }
     double sum = 0;

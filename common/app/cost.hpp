@@ -14,7 +14,8 @@ struct PassCost {
     glm::ivec2 size{1, 1};
     double amount = 0; // of the report's unit, for the whole pass
     double bytes_per_pixel = 0;
-    double time_ms = 0; // wall time, or the GPU's own; the shortest of the repetitions
+    double time_ms = 0;   // wall time, or the GPU's own; the shortest of the repetitions
+    unsigned program = 0; // passes of one process with the same one run the same shaders
 };
 
 // "amount" is counted in unit: "instructions" (user space), "ns" of CPU time or "ns" of GPU time.

@@ -16,6 +16,7 @@ struct DrawnPass {
     std::string name;
     const Framebuffer* target = nullptr;
     double bytes_per_pixel = 0; // see bytesPerPixel() in gl/pass.hpp
+    GLuint program = 0;
 };
 
 // Told of every pass as it is drawn: how passes are measured, captured and inspected.

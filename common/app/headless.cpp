@@ -1,6 +1,7 @@
 // Headless rendering: the frames asked for, one after the other, each from its own settings alone.
 #include "app/headless.hpp"
 
+#include "app/budget.hpp"
 #include "app/capture.hpp"
 #include "app/cost.hpp"
 #include "app/usage_error.hpp"
@@ -94,29 +95,28 @@ Image renderImage(Renderer& renderer, const FrameRequest& request, int frame) {
     throw UsageError("--target " + request.target + ": with these settings there is " + joined(names));
 }
 
-// Says how far a long sequence is, on a terminal, once two seconds have gone.
+// Says how far a long run is, on a terminal, once two seconds have gone.
 class Progress {
   public:
-    explicit Progress(std::size_t total) : total_(total), on_terminal_(isatty(fileno(stderr)) != 0) {}
-    ~Progress() {
-        if (shown_) std::fputs("\r\033[K", stderr);
-    }
+    ~Progress() { clear(); }
+    Progress() = default;
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
-    void step() {
-        ++done_;
+    void say(const std::string& what) {
         if (!on_terminal_) return;
         const auto now = std::chrono::steady_clock::now();
         if (now - start_ < std::chrono::seconds(2) || now - last_ < std::chrono::milliseconds(200)) return;
         last_ = now;
         shown_ = true;
-        std::fprintf(stderr, "\rframe %zu of %zu\033[K", done_, total_);
+        std::fprintf(stderr, "\r%s\033[K", what.c_str());
+    }
+    void clear() {
+        if (shown_) std::fputs("\r\033[K", stderr);
+        shown_ = false;
     }
 
   private:
-    std::size_t total_;
-    bool on_terminal_;
-    std::size_t done_ = 0;
+    bool on_terminal_ = isatty(fileno(stderr)) != 0;
     bool shown_ = false;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::chrono::steady_clock::time_point last_ = start_;
@@ -151,7 +151,7 @@ void printReadings(const std::vector<Reading>& readings, const FrameRequest& req
 }
 
 void renderRequest(Renderer& renderer, const FrameRequest& request, const Options& options,
-                   const RungInfo& info, Settings& settings, Progress& progress) {
+                   const RungInfo& info, Settings& settings, const std::function<void()>& rendered) {
     settings.applyPreset(request.preset);
     for (const std::string& set : request.sets)
         settings.set(set);
@@ -175,9 +175,28 @@ void renderRequest(Renderer& renderer, const FrameRequest& request, const Option
             const CostReport report = measureCost(renderer, info, frame, request.size, options.counter);
             std::fputs((options.json ? costJson(report) : costTable(report)).c_str(), stdout);
         }
-        progress.step();
+        rendered();
     }
     std::fflush(stdout);
+}
+
+// Searches, prints, and adds what was found to the request, which then renders it. False where Ctrl-C came
+// first.
+bool applyBudget(Renderer& renderer, FrameRequest& request, const Options& options, const RungInfo& info,
+                 Settings& settings, Progress& progress) {
+    settings.applyPreset(request.preset);
+    for (const std::string& set : request.sets)
+        settings.set(set);
+    const auto result = searchBudget(
+        renderer, options, info, settings, [&](const std::string& what) { progress.say("budget: " + what); },
+        [] { return interrupted != 0; });
+    progress.clear();
+    if (!result) return false;
+    std::fputs((options.json ? budgetJson(*result, info) : budgetText(*result)).c_str(), stdout);
+    std::fflush(stdout);
+    for (const auto& [name, value] : result->set)
+        request.sets.push_back(name + "=" + value);
+    return true;
 }
 
 std::string range(const Setting& setting) {
@@ -242,15 +261,20 @@ int runHeadless(const Options& options, const RungInfo& info, Settings& settings
     std::signal(SIGINT, onInterrupt);
     const std::unique_ptr<Context> context = makeHeadlessContext(options.context);
     Renderer renderer(*context, info, options.files);
-    const std::vector<FrameRequest> requests =
+    Progress progress;
+    std::vector<FrameRequest> requests =
         options.is_batch ? options.batch : std::vector<FrameRequest>{options.request};
+    if (options.budget && !applyBudget(renderer, requests[0], options, info, settings, progress)) return 130;
     std::size_t total = 0;
     for (const FrameRequest& request : requests)
         total += frameCount(request);
-    Progress progress(total);
+    std::size_t done = 0;
+    const auto rendered = [&] {
+        progress.say("frame " + std::to_string(++done) + " of " + std::to_string(total));
+    };
     for (const FrameRequest& request : requests) {
         if (interrupted != 0) break;
-        renderRequest(renderer, request, options, info, settings, progress);
+        renderRequest(renderer, request, options, info, settings, rendered);
     }
     return interrupted != 0 ? 130 : 0;
 }
@@ -260,6 +284,9 @@ int listSettings(const Options& options, const RungInfo& info, Settings& setting
     std::vector<std::string> passes;
     std::string drawn_by;
     std::string reason;
+    settings.applyPreset(options.request.preset); // targets and passes depend on the settings
+    for (const std::string& set : options.request.sets)
+        settings.set(set);
     try {
         const auto context = makeHeadlessContext(ContextKind::headless);
         drawn_by = context->info().renderer + ", " + context->info().version;
@@ -278,6 +305,8 @@ int listSettings(const Options& options, const RungInfo& info, Settings& setting
         for (const Settings::Preset& preset : settings.presets())
             json["presets"].push_back(
                 {{"name", preset.name}, {"help", preset.help}, {"values", preset.values}});
+        for (const Settings::Dial& dial : settings.dials())
+            json["dials"].push_back({{"setting", dial.setting}, {"values", dial.values}});
         json["targets"] = targets;
         json["passes"] = passes;
         if (reason.empty()) json["renderer"] = drawn_by;
@@ -289,16 +318,22 @@ int listSettings(const Options& options, const RungInfo& info, Settings& setting
     for (const Setting& setting : settings.all()) {
         Setting at_default = setting;
         at_default.value = setting.default_value;
-        std::printf("  %-18s %-16s %s\n  %-18s %-16s (%s)\n", setting.name.c_str(), at_default.text().c_str(),
+        std::printf("  %-18s %-18s %s\n  %-18s %-18s (%s)\n", setting.name.c_str(), at_default.text().c_str(),
                     setting.help.c_str(), "", "", range(setting).c_str());
     }
     std::printf("\npresets (--preset NAME)\n");
     for (const Settings::Preset& preset : settings.presets())
         std::printf("  %-18s %s\n", preset.name.c_str(), preset.help.c_str());
+    if (!settings.dials().empty()) {
+        std::printf("\nwhat --budget chooses from, the most accurate first\n");
+        for (const Settings::Dial& dial : settings.dials())
+            std::printf("  %-18s %s\n", dial.setting.c_str(),
+                        dial.values.empty() ? "from what it is set to downwards"
+                                            : joined(dial.values).c_str());
+    }
     if (reason.empty())
         std::printf("\ntargets (--target NAME: as they are when the frame ends)\n  %s\n\npasses (--target "
-                    "NAME: right "
-                    "after the pass)\n  %s\n",
+                    "NAME: right after the pass)\n  %s\n",
                     joined(targets).c_str(), joined(passes).c_str());
     else
         std::printf("\ntargets and passes need an OpenGL context: %s\n", reason.c_str());

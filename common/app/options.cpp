@@ -207,6 +207,30 @@ Injection parseInjection(const std::string& text) {
     return injection;
 }
 
+const char* kindName(Budget::Kind kind) {
+    constexpr const char* names[] = {"flip", "rmse", "ev"};
+    return names[static_cast<std::size_t>(kind)];
+}
+
+Budget parseBudget(const std::string& text) {
+    const auto equals = std::min(text.find('='), text.size());
+    Budget budget;
+    bool known = false;
+    for (const Budget::Kind kind : {Budget::Kind::flip, Budget::Kind::rmse, Budget::Kind::ev})
+        if (text.substr(0, equals) == kindName(kind)) {
+            budget.kind = kind;
+            known = true;
+        }
+    const double most = budget.kind == Budget::Kind::ev ? 16 : 1;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] =
+        std::from_chars(text.data() + std::min(equals + 1, text.size()), end, budget.limit);
+    if (!known || error != std::errc() || stop != end || !(budget.limit > 0 && budget.limit <= most))
+        throw UsageError("--budget " + text +
+                         ": write flip=LIMIT or rmse=LIMIT, above 0 and at most 1, or ev=LIMIT, at most 16");
+    return budget;
+}
+
 glm::ivec2 parseSize(const std::string& text) {
     const auto x = text.find('x');
     if (x == std::string::npos) throw UsageError("--size " + text + ": write WIDTHxHEIGHT, such as 640x480");
@@ -234,9 +258,10 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
     CLI::App app(info.summary, info.name);
     app.set_version_flag("--version", info.name + " " GLLADDER_VERSION " (GL Ladder)");
     app.get_formatter()->column_width(28);
-    app.footer(
-        "Without --context, the rung opens a window; --out, --frames, --target, --batch and --cost render\n"
-        "headless instead. In the window: H hides the panel, Space pauses, P writes the frame, Esc quits.");
+    app.footer("Without --context, the rung opens a window; --out, --frames, --target, --batch, --cost and "
+               "--budget\n"
+               "render headless instead. In the window: H hides the panel, Space pauses, P writes the frame, "
+               "Esc quits.");
 
     Options options;
     bool headless = false;
@@ -245,6 +270,7 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
     std::string frame;
     std::string frames;
     std::string batch;
+    std::string budget;
     std::string counter = "auto";
     std::vector<std::string> injections;
     app.add_flag("--headless", headless,
@@ -270,7 +296,8 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
                    "write this target (as it is at the end) or this pass's (right after it) instead")
         ->type_name("NAME");
     app.add_option("--inject", injections,
-                   "overwrite one pixel right after a pass, such as scene:320,240:nan; may be repeated")
+                   "overwrite one pixel right after a pass, named by itself or its target, such as "
+                   "scene:320,240:nan; may be repeated")
         ->type_name("PASS:X,Y:VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -280,12 +307,17 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
     app.add_flag("--readings", options.request.readings,
                  "print the numbers that the rung reads in the frame, where it has some");
     app.add_flag("--cost", options.request.cost, "measure every pass: instructions, copies (cu), bytes, ms");
-    app.add_option("--counter", counter,
-                   "what --cost counts with: auto, perf (hardware instructions), callgrind (exact,\n"
-                   "slow, needs valgrind), cpu (time) or gpu (timer queries)")
+    app.add_option("--budget", budget,
+                   "find the cheapest settings whose frames differ from those of the best ones by at most\n"
+                   "flip=LIMIT, rmse=LIMIT (both of display values, 0 to 1) or ev=LIMIT (stops of exposure)")
+        ->type_name("KIND=LIMIT");
+    app.add_option(
+           "--counter", counter,
+           "what --cost and --budget count with: auto, perf (hardware instructions), callgrind (exact,\n"
+           "slow, needs valgrind), cpu (time) or gpu (timer queries)")
         ->check(CLI::IsMember({"auto", "perf", "callgrind", "cpu", "gpu"}))
         ->type_name("KIND");
-    app.add_flag("--json", options.json, "with --settings, --readings or --cost: print JSON");
+    app.add_flag("--json", options.json, "with --settings, --readings, --cost or --budget: print JSON");
     if (info.takes_files) {
         app.add_option("--mesh", options.files.mesh, "your own model: .obj, .gltf or .glb")
             ->type_name("FILE");
@@ -323,10 +355,15 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
             parseInteger(frame, 1, max_frame, "--frame");
     if (!frames.empty()) parseFrames(frames, options.request);
     options.counter = counterKind(counter);
+    if (!budget.empty()) options.budget = parseBudget(budget);
+    if (options.budget &&
+        (!batch.empty() || options.request.cost || options.request.readings || !injections.empty()))
+        throw UsageError(
+            "--budget excludes --batch, --cost, --readings and --inject: search first, then ask for them");
 
     const bool needs_headless = !options.request.out.empty() || !frames.empty() ||
                                 !options.request.target.empty() || !batch.empty() || options.request.cost ||
-                                options.request.readings || !injections.empty();
+                                options.request.readings || !injections.empty() || options.budget;
     if (!context.empty())
         options.context = contextKind(context);
     else if (headless || needs_headless)
@@ -336,7 +373,7 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
     if (options.context == ContextKind::window && needs_headless)
         throw UsageError("--context window writes and measures nothing: leave it out, or use osmesa or egl");
     if (options.context != ContextKind::window && options.request.out.empty() && !options.request.cost &&
-        !options.request.readings && batch.empty())
+        !options.request.readings && !options.budget && batch.empty())
         options.request.out = info.name + (frames.empty() ? ".png" : "_%04d.png");
     if (options.context == ContextKind::window && frame.empty())
         options.request.first_frame = options.request.last_frame = 1; // a window begins at the beginning

@@ -27,6 +27,17 @@ struct Injection {
     float value = 0;     // in every channel; may be infinite or not a number
 };
 
+// How far a frame may be from that of the best settings.
+struct Budget {
+    enum class Kind {
+        flip, // mean FLIP of what a display shows, 0 to 1
+        rmse, // root mean squared difference of display values, 0 to 1
+        ev    // difference in exposure, stops; for rungs that meter
+    };
+    Kind kind = Kind::flip;
+    double limit = 0;
+};
+
 // One frame, or a run of them, and what is to come of it.
 struct FrameRequest {
     glm::ivec2 size{640, 480};
@@ -51,6 +62,7 @@ struct Options {
     FrameRequest request;
     std::vector<FrameRequest> batch; // in place of request, where --batch was given
     bool is_batch = false;
+    std::optional<Budget> budget; // for the request; no batch then
     bool list_settings = false;
     bool json = false;
     RungFiles files;
@@ -64,6 +76,10 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
 
 // "NAME:X,Y:VALUE", VALUE a number, inf, -inf or nan. Throws UsageError.
 Injection parseInjection(const std::string& text);
+
+// "flip=0.01", "rmse=0.004" or "ev=0.05"; the limit above 0, at most 1 (16 for ev). Throws UsageError.
+Budget parseBudget(const std::string& text);
+const char* kindName(Budget::Kind kind); // "flip", "rmse" or "ev"
 
 // A size such as "640x480": both sides 1 to 16384, at most 64 Mi pixels. Throws UsageError.
 glm::ivec2 parseSize(const std::string& text);

@@ -44,6 +44,10 @@ class Rung {
     // Of the frame rendered last, in the order to show them; may wait for it to be drawn. Most rungs have
     // none.
     virtual std::vector<Reading> readings() { return {}; }
+
+    // KEY=VALUE of settings that now follow from a method and must not change with it: what a blur's width
+    // is, say, where each method has its own. Set before methods are compared (--budget).
+    virtual std::vector<std::string> implied() const { return {}; }
 };
 
 struct RungInfo {
@@ -65,6 +69,8 @@ class Renderer {
 
     // What the rung read in the frame rendered last.
     std::vector<Reading> readings() { return rung_->readings(); }
+
+    std::vector<std::string> implied() const { return rung_->implied(); }
 
     const Framebuffer& presented() const { return presented_; }
     const Mesh& fullScreenTriangle() const { return triangle_; }

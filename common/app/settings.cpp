@@ -13,7 +13,10 @@ namespace {
 
 std::string shortest(double value) {
     char buffer[32];
-    const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+    // A million as 1000000, not 1e+06.
+    const bool whole = value == std::floor(value) && std::abs(value) < 1e9;
+    const auto result = whole ? std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed)
+                              : std::to_chars(buffer, buffer + sizeof buffer, value);
     return {buffer, result.ptr};
 }
 
@@ -118,14 +121,24 @@ void Settings::preset(Preset preset) {
     reset();
 }
 
-Setting& Settings::find(std::string_view name) {
+void Settings::dial(Dial dial) {
+    for (const std::string& value : dial.values)
+        set(dial.setting, value); // as for presets: one that does not fit fails at every start
+    Setting& setting = at(dial.setting);
+    if (dial.values.empty() && setting.kind != Setting::Kind::integer)
+        throw UsageError("dial " + dial.setting + ": only an integer's values need not be named");
+    setting.value = setting.default_value;
+    dials_.push_back(std::move(dial));
+}
+
+Setting& Settings::at(std::string_view name) {
     for (Setting& setting : settings_)
         if (setting.name == name) return setting;
     throw UsageError("unknown setting \"" + std::string(name) + "\"; --settings lists them");
 }
 
 void Settings::set(std::string_view name, std::string_view value) {
-    Setting& setting = find(name);
+    Setting& setting = at(name);
     switch (setting.kind) {
     case Setting::Kind::number:
     case Setting::Kind::integer:
@@ -165,11 +178,17 @@ void Settings::reset() {
         setting.value = setting.default_value;
 }
 
+std::vector<std::string> Settings::changed() const {
+    std::vector<std::string> words;
+    for (const Setting& setting : settings_)
+        if (setting.value != setting.default_value) words.push_back(setting.name + "=" + setting.text());
+    return words;
+}
+
 std::string Settings::commandLine() const {
     std::string text;
-    for (const Setting& setting : settings_)
-        if (setting.value != setting.default_value)
-            text += (text.empty() ? "--set " : " --set ") + setting.name + "=" + setting.text();
+    for (const std::string& word : changed())
+        text += (text.empty() ? "--set " : " --set ") + word;
     return text;
 }
 

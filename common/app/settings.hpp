@@ -91,6 +91,14 @@ class Settings {
     };
     void preset(Preset preset);
 
+    // A setting that trades accuracy for cost: its values from the most accurate on. Without values, an
+    // integer's: from what it is set to down to its least.
+    struct Dial {
+        std::string setting;
+        std::vector<std::string> values = {};
+    };
+    void dial(Dial dial);
+
     // Throws UsageError naming the setting, the value, and what is allowed.
     void set(std::string_view name, std::string_view value);
     void set(std::string_view key_equals_value);
@@ -100,16 +108,19 @@ class Settings {
     const std::deque<Setting>& all() const { return settings_; }
     std::deque<Setting>& all() { return settings_; }
     const std::vector<Preset>& presets() const { return presets_; }
+    const std::vector<Dial>& dials() const { return dials_; }
+    Setting& at(std::string_view name); // throws UsageError where there is none
 
-    // "--set KEY=VALUE" for every setting that differs from its default, separated by spaces.
+    // KEY=VALUE for every setting that differs from its default; the same as one line, each after "--set".
+    std::vector<std::string> changed() const;
     std::string commandLine() const;
 
   private:
     Setting& add(Setting setting);
-    Setting& find(std::string_view name);
 
     std::deque<Setting> settings_; // a deque, so that handles stay valid while more are declared
     std::vector<Preset> presets_{{"seed", "the original tutorial's numbers", {}}};
+    std::vector<Dial> dials_;
 };
 
 } // namespace gll

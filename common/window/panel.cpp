@@ -98,10 +98,31 @@ Panel::~Panel() {
 bool Panel::hasMouse() const { return ImGui::GetIO().WantCaptureMouse; }
 bool Panel::hasKeyboard() const { return ImGui::GetIO().WantTextInput; }
 
+void Panel::budgetSection(const PanelState& state) {
+    if (state.searching_s > 0) {
+        ImGui::Text("searching, %.0f s", state.searching_s);
+        ImGui::SameLine();
+        stop_asked = ImGui::Button("stop");
+        return;
+    }
+    if (ImGui::BeginCombo("error", kindName(budget_.kind))) {
+        for (const Budget::Kind kind : {Budget::Kind::flip, Budget::Kind::rmse, Budget::Kind::ev})
+            if (ImGui::Selectable(kindName(kind), kind == budget_.kind)) budget_.kind = kind;
+        ImGui::EndCombo();
+    }
+    auto limit = static_cast<float>(budget_.limit);
+    if (ImGui::SliderFloat("at most", &limit, 0.001F, 1, "%.3g",
+                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+        budget_.limit = limit;
+    if (ImGui::Button("find the cheapest settings")) search_asked = budget_;
+}
+
 void Panel::draw(Settings& settings, const PanelState& state) {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
+    search_asked.reset();
+    stop_asked = false;
     if (visible) {
         const ImVec2 display = ImGui::GetIO().DisplaySize;
         const float widest = std::max(display.x - 16, 1.0F);
@@ -110,7 +131,7 @@ void Panel::draw(Settings& settings, const PanelState& state) {
         ImGui::SetNextWindowSizeConstraints({std::min(200 * scale_, widest), 0}, {widest, highest});
         ImGui::SetNextWindowBgAlpha(0.72F);
         ImGui::Begin("settings (H hides)", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
-        ImGui::PushItemWidth(110 * scale_);
+        ImGui::PushItemWidth(140 * scale_);
         ImGui::Text("frame %d%s, %.2f ms", state.frame, state.paused ? " (paused)" : "", state.frame_time_ms);
         for (const Reading& reading : state.readings)
             ImGui::Text("%s %.4g %s", reading.name.c_str(), reading.value, reading.unit.c_str());
@@ -119,7 +140,10 @@ void Panel::draw(Settings& settings, const PanelState& state) {
             ImGui::TextUnformatted(state.message.c_str());
             ImGui::PopTextWrapPos();
         }
+        // In a small window the list would hide the picture: there it starts closed.
+        ImGui::SetNextItemOpen(display.x > 560 * scale_, ImGuiCond_Once);
         if (ImGui::CollapsingHeader("settings", ImGuiTreeNodeFlags_DefaultOpen)) settingsSection(settings);
+        if (!settings.dials().empty() && ImGui::CollapsingHeader("budget")) budgetSection(state);
         pass_times_open_ = ImGui::CollapsingHeader("pass times");
         if (pass_times_open_) {
             for (const PassTime& pass : state.pass_times)

@@ -2,8 +2,9 @@
 // declarations.
 #pragma once
 
-#include "app/rung.hpp"
+#include "app/options.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,7 @@ struct PanelState {
     double frame_time_ms = 0;         // of drawing, not of waiting for the display
     std::vector<PassTime> pass_times; // empty until asked for
     std::vector<Reading> readings;    // of the frame shown, where the rung has some
+    double searching_s = 0;           // how long a search within a budget has been under way; 0: none is
     std::string message;              // the last thing that happened, such as a file written
 };
 
@@ -38,6 +40,10 @@ class Panel {
     // Draws over the default framebuffer, which must be bound. Changes settings as the person does.
     void draw(Settings& settings, const PanelState& state);
 
+    // Whether a button was pressed in the last draw(): to search within that budget, or to stop the search.
+    std::optional<Budget> search_asked;
+    bool stop_asked = false;
+
     bool visible = true;
     bool wantsPassTimes() const { return visible && pass_times_open_; }
     // Whether the mouse or keyboard is busy in the panel, so that they mean nothing to the scene.
@@ -45,6 +51,9 @@ class Panel {
     bool hasKeyboard() const;
 
   private:
+    void budgetSection(const PanelState& state);
+
+    Budget budget_{Budget::Kind::flip, 0.01};
     bool pass_times_open_ = false;
     float scale_ = 1; // pixels per unit: 2 on most HiDPI displays
 };

@@ -1,6 +1,7 @@
 // The window by GLFW: clock, keys, mouse, presenting and saving frames.
 #include "window/window.hpp"
 
+#include "app/budget.hpp"
 #include "app/capture.hpp"
 #include "window/panel.hpp"
 
@@ -294,9 +295,37 @@ class RungWindow {
             state_.readings = renderer_.readings();
             readings_are_current_ = true;
         }
+        state_.searching_s = search_ ? secondsSince(search_start_) : 0;
         panel_->draw(settings_, state_);
+        attendSearch(size);
         context_.debugLog().check("OpenGL, presenting");
         glfwSwapBuffers(context_.window());
+    }
+
+    // Searches within a budget in a process of its own, and takes over what it finds.
+    void attendSearch(glm::ivec2 size) {
+        if (panel_->stop_asked) search_.reset();
+        if (panel_->search_asked) {
+            FrameRequest request;
+            request.size = size;
+            request.first_frame = request.last_frame = state_.frame;
+            request.sets = settings_.changed();
+            // Where a GPU draws, costs are the GPU's.
+            search_.emplace(budgetCommand(*panel_->search_asked, request, given_,
+                                          context_.info().is_software ? "" : "egl"));
+            search_start_ = Clock::now();
+            state_.message.clear();
+        }
+        if (!search_) return;
+        const std::optional<ProcessResult> result = search_->poll();
+        if (!result) return;
+        search_.reset();
+        const BudgetAnswer answer = budgetAnswer(*result);
+        for (const auto& [name, value] : answer.set)
+            settings_.set(name, value);
+        state_.message = answer.text;
+        std::printf("%s\n", answer.text.c_str());
+        std::fflush(stdout);
     }
 
     // The present frame into the current folder, and beside it the command line that renders it again.
@@ -351,6 +380,8 @@ class RungWindow {
     glm::ivec2 rendered_size_{0};
     std::string rendered_settings_;
     bool readings_are_current_ = false;
+    std::optional<Process> search_; // for the cheapest settings within a budget
+    Clock::time_point search_start_;
     bool save_asked_ = false;
     bool drags_divider_ = false;
     double cursor_x_ = 0;

@@ -10,9 +10,9 @@ out vec4 color;
 
 // excerpt: up
 #if UP_FILTER == UP_FILTER_SPLINE
-// The cubic B-spline through the source's texels: smooth, nearly round, and each texel gives the same light to however
-// many pixels. Its four weights a direction in two bilinear fetches (Sigg, Hadwiger 2005, "Fast Third-Order Texture
-// Filtering").
+// The cubic B-spline with the source's texels as coefficients: smooth, nearly round, and each texel gives the same
+// light to however many pixels. Its four weights a direction in two bilinear fetches (Sigg, Hadwiger 2005, "Fast
+// Third-Order Texture Filtering").
 vec3 up() {
     vec2 size = vec2(textureSize(source, 0));
     vec2 texel = uv * size - 0.5;

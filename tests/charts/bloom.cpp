@@ -5,8 +5,8 @@
 #include "charts/frames.hpp"
 #include "charts/spline_energy.hpp"
 #include "truth/convolution.hpp"
-#include "truth/errors.hpp"
-#include "truth/flip.hpp"
+#include "measure/errors.hpp"
+#include "measure/flip.hpp"
 
 #include <cmath>
 #include <cstdio>

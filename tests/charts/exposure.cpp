@@ -4,7 +4,7 @@
 #include "charts/chart.hpp"
 #include "charts/frames.hpp"
 #include "support/process.hpp"
-#include "truth/color.hpp"
+#include "measure/color.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -4,9 +4,9 @@
 
 #include "charts/chart.hpp"
 #include "charts/frames.hpp"
-#include "truth/color.hpp"
-#include "truth/errors.hpp"
-#include "truth/flip.hpp"
+#include "measure/color.hpp"
+#include "measure/errors.hpp"
+#include "measure/flip.hpp"
 
 #include <string>
 #include <vector>

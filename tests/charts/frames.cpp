@@ -36,7 +36,7 @@ truth::ColorImage Frames::read(std::size_t number) const {
 }
 
 std::vector<nlohmann::json> costs(const std::filesystem::path& rung, const std::vector<Set>& sets,
-                                  glm::ivec2 size) {
+                                  glm::ivec2 size, const std::vector<std::string>& more) {
     std::string lines;
     for (const Set& set : sets)
         lines += nlohmann::json{{"cost", true},
@@ -45,11 +45,15 @@ std::vector<nlohmann::json> costs(const std::filesystem::path& rung, const std::
                      .dump() +
                  "\n";
     const test::TemporaryFolder folder;
-    const test::Result result =
-        test::runToSuccess({rung,
-                            {"--context", "osmesa", "--counter", "callgrind", "--json", "--batch",
-                             folder.write("batch.jsonl", lines).string()}},
-                           std::chrono::minutes(60));
+    std::vector<std::string> arguments = {"--context",
+                                          "osmesa",
+                                          "--counter",
+                                          "callgrind",
+                                          "--json",
+                                          "--batch",
+                                          folder.write("batch.jsonl", lines).string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const test::Result result = test::runToSuccess({rung, arguments}, std::chrono::minutes(60));
     std::vector<nlohmann::json> reports;
     std::istringstream stream(result.out);
     for (std::string line; std::getline(stream, line);)

@@ -1,8 +1,8 @@
 // Frames of a rung, rendered many to a process and read back as linear light.
 #pragma once
 
+#include "measure/raster.hpp"
 #include "support/temporary_folder.hpp"
-#include "truth/raster.hpp"
 
 #include <filesystem>
 #include <glm/vec2.hpp>
@@ -44,7 +44,7 @@ class Frames {
 // What each pass of a frame costs in copies (cu), by the program's own --cost under callgrind: exact, and
 // slow.
 std::vector<nlohmann::json> costs(const std::filesystem::path& rung, const std::vector<Set>& sets,
-                                  glm::ivec2 size);
+                                  glm::ivec2 size, const std::vector<std::string>& arguments = {});
 
 // An .exr of linear light, for --image.
 void writeExr(const std::filesystem::path& file, const truth::ColorImage& image);

@@ -5,7 +5,7 @@
 #include "charts/chart.hpp"
 #include "charts/frames.hpp"
 #include "truth/aces.hpp"
-#include "truth/color.hpp"
+#include "measure/color.hpp"
 #include "truth/tone_reference.hpp"
 
 #include <functional>

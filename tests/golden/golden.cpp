@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
+#include <set>
 
 namespace {
 using namespace gll;
@@ -19,9 +20,10 @@ using namespace gll::test;
 namespace fs = std::filesystem;
 
 struct Task {
-    fs::path program; // the rung
-    fs::path goldens; // the folder with its cases
-    fs::path output;  // the folder for frames and the report
+    fs::path program;      // the rung
+    fs::path goldens;      // the folder with its cases
+    fs::path output;       // the folder for frames and the report
+    bool complete = false; // every choice of every setting has to have a case
 };
 
 // Frames are only comparable from one rasteriser, so that is no choice of the environment's.
@@ -71,6 +73,31 @@ std::vector<std::string> orphans(const fs::path& folder) {
     return names;
 }
 
+// NAME=VALUE of choices that no case shows: a method without a golden can change unnoticed.
+std::vector<std::string> choicesWithoutCase(const Task& task, const std::vector<GoldenCase>& cases) {
+    const auto listed = nlohmann::json::parse(runRung(task, {"--settings", "--json"}).out);
+    std::map<std::string, std::set<std::string>> shown;
+    for (const GoldenCase& golden : cases) {
+        for (const auto& preset : listed.at("presets"))
+            if (preset.at("name") == golden.request.value("preset", "seed"))
+                for (const auto& value : preset.at("values"))
+                    shown[value.at(0)].insert(value.at(1));
+        if (golden.request.contains("set"))
+            for (const auto& [name, value] : golden.request.at("set").items())
+                shown[name].insert(value.is_string() ? value.get<std::string>() : value.dump());
+    }
+    std::vector<std::string> missing;
+    for (const auto& setting : listed.at("settings")) {
+        const std::string name = setting.at("name");
+        // The other side of a comparison is drawn by the same code as the first.
+        if (!setting.contains("choices") || name.starts_with("right_")) continue;
+        for (const std::string choice : setting.at("choices"))
+            if (setting.at("default") != choice && !shown[name].contains(choice))
+                missing.push_back(name + "=" + choice);
+    }
+    return missing;
+}
+
 int check(const Task& task) {
     const std::string rung = task.program.filename().string();
     const std::vector<GoldenCase> cases = readCases(task.goldens);
@@ -117,6 +144,13 @@ int check(const Task& task) {
         saveImage(task.output / entry.difference, amplifiedDifference(reference, frame));
         entries.push_back(entry);
     }
+    if (task.complete)
+        for (const std::string& choice : choicesWithoutCase(task, cases)) {
+            std::printf(
+                "%s failed: there is no case with it; look at the frame, then tests/bless %s CASE --set %s\n",
+                choice.c_str(), rung.c_str(), choice.c_str());
+            ++failures;
+        }
     for (const std::string& name : orphans(task.goldens)) {
         std::printf("%s failed: there is no .json beside it\n", name.c_str());
         ++failures;
@@ -238,6 +272,7 @@ int main(int argc, char** argv) {
     app.add_option("--program", task.program, "the rung")->required();
     app.add_option("--goldens", task.goldens, "the folder with its cases")->required();
     app.add_option("--output", task.output, "the folder for frames and the report");
+    app.add_flag("--complete", task.complete, "check too that every choice of a setting has a case");
     app.add_flag("--mutations", mutations, "check that small changes are noticed");
     app.add_flag("--bless", blesses, "accept the frames as they are now");
     app.add_option("--frame", frame, "of a new case: the frame");

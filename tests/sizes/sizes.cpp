@@ -1,5 +1,6 @@
-// Every target at sizes that are tiny, odd, large or a single row: rendered without an error, and finite
-// everywhere. Usage: sizes RUNG
+// Every target at sizes that are tiny, odd, large or a single row; or at two small ones with every setting at
+// all its choices or both ends of its range: rendered without an error, finite everywhere.
+// Usage: sizes RUNG [settings]
 #include "io/image.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -7,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <span>
 
 namespace {
 using namespace gll;
@@ -14,11 +16,13 @@ using namespace gll::test;
 
 struct Frame {
     std::string size;
-    std::string target; // empty: what a display shows
+    std::string setting; // NAME=VALUE; empty: as it is by default
+    std::string target;  // empty: what a display shows
     std::filesystem::path file;
 };
 
 constexpr const char* sizes[] = {"1x1", "2x3", "641x479", "1920x1080", "16384x1", "1x16384"};
+constexpr const char* small_sizes[] = {"1x1", "7x3"}; // where every setting is tried, one at a time
 
 // The first value that is infinite or not a number, as words; empty: there is none.
 std::string firstNotFinite(const Image& image) {
@@ -42,28 +46,60 @@ std::string whatIsWrong(const Frame& frame) {
     return firstNotFinite(image);
 }
 
-int check(const std::filesystem::path& rung) {
+nlohmann::json listed(const std::filesystem::path& rung, const std::string& setting) {
+    std::vector<std::string> arguments = {"--settings", "--json"};
+    if (!setting.empty()) arguments.insert(arguments.end(), {"--set", setting});
+    return nlohmann::json::parse(runToSuccess({rung, arguments}).out);
+}
+
+// Each setting as NAME=VALUE at all its choices, or at both ends of its range.
+std::vector<std::string> everySetting(const nlohmann::json& settings) {
+    std::vector<std::string> all;
+    for (const auto& setting : settings) {
+        const std::string name = setting.at("name").get<std::string>() + "=";
+        if (name == "instances=") continue;        // the most there may be take a minute to draw
+        if (name.ends_with("tone_map=")) continue; // whose target has eight bits, and is finite
+        if (setting.contains("choices"))
+            for (const auto& choice : setting.at("choices"))
+                all.push_back(name + choice.get<std::string>());
+        else if (setting.at("kind") == "toggle")
+            all.insert(all.end(), {name + "on", name + "off"});
+        else
+            all.insert(all.end(), {name + setting.at("min").dump(), name + setting.at("max").dump()});
+    }
+    return all;
+}
+
+int check(const std::filesystem::path& rung, bool every_setting) {
     const TemporaryFolder folder;
-    const auto listed = nlohmann::json::parse(runToSuccess({rung, {"--settings", "--json"}}).out);
-    std::vector<std::string> targets = listed.at("targets");
-    if (targets.empty()) throw std::runtime_error("the rung lists no targets");
-    targets.emplace_back();
     std::vector<Frame> frames;
     std::string lines;
-    for (const char* size : sizes)
-        for (const std::string& target : targets) {
-            const std::string name = std::to_string(frames.size()) + (target.empty() ? ".png" : ".exr");
-            frames.push_back({size, target, folder / name});
-            nlohmann::json line{{"frame", 60}, {"size", size}, {"out", frames.back().file.string()}};
-            if (!target.empty()) line["target"] = target;
-            lines += line.dump() + "\n";
-        }
+    const auto add = [&](const std::string& setting, std::span<const char* const> its_sizes) {
+        std::vector<std::string> targets = listed(rung, setting).at("targets");
+        if (targets.empty()) throw std::runtime_error("the rung lists no targets");
+        targets.emplace_back();
+        for (const char* size : its_sizes)
+            for (const std::string& target : targets) {
+                const std::string name = std::to_string(frames.size()) + (target.empty() ? ".png" : ".exr");
+                frames.push_back({size, setting, target, folder / name});
+                nlohmann::json line{{"frame", 60}, {"size", size}, {"out", frames.back().file.string()}};
+                if (!setting.empty()) line["set"] = {setting};
+                if (!target.empty()) line["target"] = target;
+                lines += line.dump() + "\n";
+            }
+    };
+    if (every_setting)
+        for (const std::string& setting : everySetting(listed(rung, "").at("settings")))
+            add(setting, small_sizes);
+    else
+        add("", sizes);
     runToSuccess({rung, {"--headless", "--batch", folder.write("batch.jsonl", lines).string()}});
     int failures = 0;
     for (const Frame& frame : frames) {
         const std::string wrong = whatIsWrong(frame);
         if (wrong.empty()) continue;
-        std::printf("%s %s: %s\n", frame.size.c_str(), frame.target.c_str(), wrong.c_str());
+        std::printf("%s %s %s: %s\n", frame.size.c_str(), frame.setting.c_str(), frame.target.c_str(),
+                    wrong.c_str());
         ++failures;
     }
     std::printf("%zu frames and targets, %d of them wrong\n", frames.size(), failures);
@@ -73,12 +109,13 @@ int check(const std::filesystem::path& rung) {
 } // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 2) {
-        std::fprintf(stderr, "usage: sizes RUNG\n");
+    const bool every_setting = argc == 3 && std::string(argv[2]) == "settings";
+    if (argc != 2 && !every_setting) {
+        std::fprintf(stderr, "usage: sizes RUNG [settings]\n");
         return 2;
     }
     try {
-        return check(argv[1]);
+        return check(argv[1], every_setting);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "sizes: error: %s\n", error.what());
         return 1;

@@ -2,7 +2,7 @@
 // after.
 #include "truth/aces.hpp"
 
-#include "truth/color.hpp"
+#include "measure/color.hpp"
 
 #include <OpenColorIO/OpenColorIO.h>
 

@@ -1,7 +1,7 @@
 // OpenColorIO's ACES rendering against what the Academy's transforms are specified to do.
 #include "support/messages.hpp"
 #include "truth/aces.hpp"
-#include "truth/color.hpp"
+#include "measure/color.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -189,6 +189,71 @@ inline Plane planeOf(const Image& image) {
     return plane;
 }
 
+// The sum of (-1)^k (n choose k) (x + n/2 - k)^power over what is positive in the brackets, over power!. With
+// n = degree + 1 it is a B-spline where power = degree, and the area left of x where power = n (Schoenberg
+// 1946).
+inline double truncatedPowers(int n, int power, double x) {
+    double sum = 0;
+    double coefficient = 1;
+    for (int k = 0; k <= n; ++k) {
+        sum += coefficient * std::pow(std::max(x + n / 2.0 - k, 0.0), power);
+        coefficient *= -double(n - k) / (k + 1);
+    }
+    return sum / std::tgamma(power + 1);
+}
+
+// What a target texel takes from which source texels along one axis. Beyond the edges lies the mirror image.
+using AxisWeights = std::vector<std::vector<std::pair<int, double>>>;
+
+template <class Weight> // of a source texel's left edge and a target texel's centre, in source texels
+AxisWeights axisWeights(int source, int target, double reach, const Weight& weight) {
+    AxisWeights weights(static_cast<std::size_t>(target));
+    for (int i = 0; i < target; ++i) {
+        const double centre = (i + 0.5) * source / target;
+        for (int texel = static_cast<int>(std::floor(centre - reach)); texel < centre + reach; ++texel) {
+            const int place = (texel % (2 * source) + 2 * source) % (2 * source);
+            weights[static_cast<std::size_t>(i)].emplace_back(std::min(place, 2 * source - 1 - place),
+                                                              weight(texel, centre));
+        }
+    }
+    return weights;
+}
+
+template <class Weights> // of source and target length
+Plane weighed(const Plane& source, int width, int height, const Weights& weights) {
+    const AxisWeights across = weights(source.width, width);
+    const AxisWeights up = weights(source.height, height);
+    Plane result(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            for (const auto& [j, weight_y] : up[static_cast<std::size_t>(y)])
+                for (const auto& [i, weight_x] : across[static_cast<std::size_t>(x)])
+                    result.at(x, y) += source.at(i, j) * (weight_x * weight_y);
+    return result;
+}
+
+// Each source texel counts by the part of the target texel's spline that lies over it.
+inline Plane splineDown(const Plane& source, int width, int height, int degree) {
+    return weighed(source, width, height, [degree](int from, int to) {
+        const double ratio = double(from) / to;
+        return axisWeights(from, to, (degree + 1) / 2.0 * ratio, [&](int texel, double centre) {
+            const auto area = [&](double edge) {
+                return truncatedPowers(degree + 1, degree + 1, (edge - centre) / ratio);
+            };
+            return area(texel + 1) - area(texel);
+        });
+    });
+}
+
+// The cubic spline whose coefficients are the source's texels.
+inline Plane splineUp(const Plane& source, int width, int height) {
+    return weighed(source, width, height, [](int from, int to) {
+        return axisWeights(from, to, 2.5, [](int texel, double centre) {
+            return truncatedPowers(4, 3, centre - texel - 0.5);
+        });
+    });
+}
+
 // Nine literal taps of the Gaussian along one axis, radius texels apart.
 inline Plane blurred(const Plane& source, double radius, bool along_x) {
     constexpr double weights[] = {0.2270270270, 0.1945945946, 0.1216216216, 0.0540540541, 0.0162162162};

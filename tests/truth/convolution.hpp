@@ -1,7 +1,7 @@
 // Exact blurs to judge filters by: convolution in double with any point spread function, and Gaussians.
 #pragma once
 
-#include "truth/raster.hpp"
+#include "measure/raster.hpp"
 
 #include <vector>
 

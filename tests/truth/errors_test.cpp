@@ -1,7 +1,7 @@
 // The error measures and colour spaces against values worked out by hand or published.
 #include "support/messages.hpp"
-#include "truth/color.hpp"
-#include "truth/errors.hpp"
+#include "measure/color.hpp"
+#include "measure/errors.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // FLIP by what its papers promise of it, and against their formulas written out as sums in two dimensions.
 #include "support/messages.hpp"
-#include "truth/color.hpp"
-#include "truth/flip.hpp"
+#include "measure/color.hpp"
+#include "measure/flip.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // frame_error: says how far one frame is from another, for people and as JSON for charts and tests.
 // Usage: frame_error NEW REFERENCE [--json] [--map FILE.png] [--pixels-per-degree N]
 #include "io/image.hpp"
-#include "truth/errors.hpp"
-#include "truth/flip.hpp"
+#include "measure/errors.hpp"
+#include "measure/flip.hpp"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>

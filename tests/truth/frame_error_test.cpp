@@ -3,8 +3,8 @@
 #include "support/messages.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
-#include "truth/errors.hpp"
-#include "truth/flip.hpp"
+#include "measure/errors.hpp"
+#include "measure/flip.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

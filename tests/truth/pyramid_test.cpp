@@ -156,6 +156,35 @@ TEST_F(PyramidTruth, everyUpFilterIsItsWeightsAddedToWhatWasThere) {
         }
 }
 
+TEST_F(PyramidTruth, splinesWeighByTheirAreaOnTheWayDownAndByTheirHeightOnTheWayUp) {
+    for (const glm::ivec2 size : sizes) {
+        // Without a threshold the bright pass is the linear spline alone.
+        const Recorder passes = draw(size, light(size), {.down = "spline", .up = "spline"},
+                                     [](PyramidBloomParameters& p) { p.threshold = p.knee = 0; });
+        const auto& planes = passes.planes;
+        for (int i = 0; i < levels; ++i) {
+            const std::string pass = i == 0 ? "bright" : "down" + std::to_string(i);
+            const Plane& source = planes.at(i == 0   ? "source"
+                                            : i == 1 ? "bright"
+                                                     : "down" + std::to_string(i - 1));
+            const Plane& actual = planes.at(pass);
+            EXPECT_EQ(glm::ivec2(actual.width, actual.height),
+                      (glm::ivec2(source.width, source.height) + 1) / 2);
+            expectEqual(name(size) + pass, actual,
+                        splineDown(source, actual.width, actual.height, i == 0 ? 1 : 3));
+        }
+        for (int i = levels - 2; i >= 0; --i) {
+            const Plane& below = planes.at(i == levels - 2 ? "down" + std::to_string(levels - 1)
+                                                           : "up" + std::to_string(i + 1));
+            const Plane& before = planes.at(i == 0 ? "bright" : "down" + std::to_string(i));
+            expectEqual(name(size) + "up" + std::to_string(i), planes.at("up" + std::to_string(i)),
+                        added(before, splineUp(below, before.width, before.height)));
+        }
+        if (planes.contains("up")) // a small frame, whose glow has its own size
+            expectEqual(name(size) + "up", planes.at("up"), splineUp(planes.at("up0"), size.x, size.y));
+    }
+}
+
 TEST_F(PyramidTruth, theBlurIsNineTapsAtEveryRadius) {
     for (const glm::ivec2 size : sizes)
         for (const float radius : {0.1F, 0.5F, 0.8F, 1.0F, 1.3F, 4.0F}) {

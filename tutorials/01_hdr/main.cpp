@@ -38,6 +38,7 @@ struct HdrOptions {
 
     // What the charts speak for; the format they speak for is the seed's own.
     HdrOptions() {
+        all.dial({"format", {"rgba32f", "rgba16f", "r11f_g11f_b10f", "rgb10_a2", "rgba8"}});
         all.preset({"recommended", "the tone map that turns hues least", {{"tone_map", "pbr_neutral"}}});
     }
 };

@@ -27,6 +27,13 @@ struct AutoExposureRungOptions {
     Choice test_pattern = all.choice("test_pattern", "none", {patterns.begin(), patterns.end()},
                                      "in place of the scene, for trying the meter");
     OrbitSettings orbit{all};
+
+    AutoExposureRungOptions() {
+        all.dial({"reduction", {"area", "histogram", "mipmap_r16f", "mipmap_r16"}});
+        all.preset({"recommended",
+                    "the reduction that is right at every size: the default already",
+                    {{"reduction", "area"}}});
+    }
 };
 
 class AutoExposureRung final : public Rung {
@@ -57,6 +64,12 @@ class AutoExposureRung final : public Rung {
                 {"adapted_luminance", "", state[1]},
                 {"key", "", state[2]},
                 {"exposure_ev", "stops", std::log2(double(state[0]))}};
+    }
+
+    // What is metered: all of the frame, unless a histogram is trimmed already.
+    std::vector<std::string> implied() const override {
+        if (options_.exposure.reduction == "histogram") return {};
+        return {"low_percent=0", "high_percent=100"};
     }
 
   private:
@@ -120,7 +133,8 @@ class AutoExposureRung final : public Rung {
                     .uniforms = usedBy(program, {{"white_point", options_.display.white_point}})});
     }
 
-    // Figures and histogram at the lower left, as large as the frame allows; none where they have no room.
+    // Figures and histogram at the lower right, where the window's panel does not reach, as large as the
+    // frame allows; none where they have no room.
     void drawOverlay(Frame& frame) {
         constexpr glm::ivec2 read_out(136, 48);
         constexpr int margin = 4;
@@ -129,14 +143,15 @@ class AutoExposureRung final : public Rung {
         const bool counted = options_.exposure.reduction == "histogram";
         if (!counted) meter_.drawHistogram(frame, hdr_.color());
         const auto scale = static_cast<float>(std::max(1, std::min(size.x / 320, size.y / 240)));
-        const glm::vec2 origin(scale * margin);
+        const glm::vec2 extent = scale * glm::vec2(read_out);
+        const glm::vec2 origin(static_cast<float>(size.x) - extent.x - scale * margin, scale * margin);
         const glm::ivec2 grid = LuminanceMeter::histogramGrid(size);
         frame.pass(
             "overlay", frame.presented(),
             {.program = shaders_.program("02_auto_exposure/overlay.vert", "02_auto_exposure/overlay.frag"),
              .inputs = {{"histogram", meter_.histogram()}, {"exposure", *exposure_state_}},
              .uniforms = {{"origin", origin},
-                          {"extent", scale * glm::vec2(read_out)},
+                          {"extent", extent},
                           {"frame_size", glm::vec2(size)},
                           {"scale", scale},
                           {"samples", static_cast<float>(grid.x * grid.y)},

@@ -175,6 +175,11 @@ BlurPlan planBlur(const BlurRequest& request) {
 }
 // end excerpt
 
+double sigmaOf(const BlurPlan& plan) {
+    return std::sqrt(plan.half_resolution ? halfResolutionVariance(plan.taps, plan.pairs)
+                                          : plan.pairs * variance(plan.taps));
+}
+
 GaussianBlur::GaussianBlur(Format format)
     : across_({{"across", format}}, {1, 1}), blurred_({{"blurred", format}}, {1, 1}) {}
 

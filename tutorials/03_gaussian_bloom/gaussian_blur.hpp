@@ -64,6 +64,9 @@ struct BlurRequest {
 // std::invalid_argument for an unknown method.
 BlurPlan planBlur(const BlurRequest& request);
 
+// The width that a plan reaches, pixels of the frame: the root of its variance, of both directions' mean.
+double sigmaOf(const BlurPlan& plan);
+
 // The most pairs that planBlur() makes: ping-pong then reaches a sigma of 16 pixels and no further.
 inline constexpr int most_pairs = 90;
 

@@ -33,7 +33,7 @@ struct GaussianBloomOptions {
     Integer iterations = all.integer("iterations", 5, 1, most_pairs,
                                      "pairs of blur passes where sigma is 0; wide_gaussian has one");
     Number sigma = all.number("sigma", 0, 0, 32,
-                              "width of the blur, pixels, the same for every method; 0: each has its own");
+                              "width of the blur, pixels, of every method but mipmap; 0: each has its own");
     Choice offsets = all.choice("offsets", "corrected", {"corrected", "as_printed"},
                                 "of half_resolution_5tap: as far apart as sigma says, or 12 % less");
     Choice vertical_step = all.choice("vertical_step", "corrected", {"corrected", "as_printed"},
@@ -44,6 +44,15 @@ struct GaussianBloomOptions {
     ToneMapOptions display{all, "exposure", "gamma22"};
     OrbitSettings orbit{all};
     // end excerpt
+
+    GaussianBloomOptions() {
+        all.dial({"bloom", {"on", "off"}});
+        all.dial({"blur", {"wide_gaussian", "ping_pong_9tap", "ping_pong_5fetch", "half_resolution_5tap"}});
+        all.dial({"bright_format", {"rgba16f", "r11f_g11f_b10f"}});
+        all.preset({"recommended",
+                    "one Gaussian with computed weights, as wide as the seed's ten passes",
+                    {{"blur", "wide_gaussian"}, {"sigma", "3.78"}}});
+    }
 };
 
 class GaussianBloom final : public Rung {
@@ -62,6 +71,14 @@ class GaussianBloom final : public Rung {
         composite(frame, blurred);
     }
     // end excerpt
+
+    // The width, which each method would choose for itself.
+    std::vector<std::string> implied() const override {
+        const double sigma = sigmaOf(blurPlan());
+        char text[32];
+        std::snprintf(text, sizeof text, "sigma=%.2f", sigma);
+        return sigma > 0 ? std::vector<std::string>{text} : std::vector<std::string>{};
+    }
 
   private:
     // excerpt: targets

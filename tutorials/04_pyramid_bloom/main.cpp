@@ -17,6 +17,7 @@ using namespace gll;
 struct PyramidOptions {
     Settings all;
     // excerpt: settings
+    Toggle bloom = all.toggle("bloom", true, "whether bright light spills over its edges");
     Number threshold = all.number("threshold", 0.8, 0, 1000, "luminance from which a pixel blooms");
     Number soft_knee =
         all.number("soft_knee", 0.5, 0, 1, "half the width of the soft step, of the threshold");
@@ -36,6 +37,10 @@ struct PyramidOptions {
     // end excerpt
 
     PyramidOptions() {
+        all.dial({"bloom", {"on", "off"}});
+        all.dial({"levels"});
+        PyramidFilters::dials(all);
+        all.dial({"format", {"rgba16f", "r11f_g11f_b10f", "rgba8"}});
         all.preset({"recommended",
                     "splines by area: all the light, steady and round, at every size",
                     {{"down_filter", "spline"},
@@ -64,13 +69,14 @@ class PyramidBloomRung final : public Rung {
         hdr_.resize(frame.size());
         lit_.resize(frame.size());
         drawScene(frame);
+        if (!options_.bloom) return present(frame, hdr_.color());
         const PyramidBloomParameters parameters = bloomParameters();
         bloom_.drawDown(frame, hdr_.color(), parameters);
         if (options_.view == "pyramid") return drawSheet(frame, hdr_.color());
         bloom_.drawUp(frame, parameters);
         bloom_.composite(frame, hdr_.color(), options_.strength * PyramidBloom::share(parameters), lit_);
         if (options_.view == "sums") return drawSheet(frame, lit_.color());
-        present(frame);
+        present(frame, lit_.color());
     }
     // end excerpt
 
@@ -126,12 +132,12 @@ class PyramidBloomRung final : public Rung {
     }
     // end excerpt
 
-    void present(Frame& frame) {
+    void present(Frame& frame, const Texture& linear_picture) {
         const Program& program =
             shaders_.fullScreen("lib/present.frag", options_.display.defines() + Defines{{"BLOOM", "0"}});
         frame.pass("present", frame.presented(),
                    {.program = program,
-                    .inputs = {{"hdr", lit_.color()}},
+                    .inputs = {{"hdr", linear_picture}},
                     .uniforms = usedBy(program, options_.display.uniforms())});
     }
 

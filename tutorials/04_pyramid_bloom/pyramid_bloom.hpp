@@ -27,6 +27,12 @@ struct PyramidFilters {
               settings.toggle("normalise", false,
                               "divide by the number of levels: the bloom has the light of what is bright")) {}
 
+    // For --budget: the filters from the most accurate on.
+    static void dials(Settings& settings) {
+        settings.dial({"down_filter", {"spline", "13tap", "5tap", "4tap", "box"}});
+        settings.dial({"up_filter", {"spline", "tent", "dual", "4tap", "bilinear"}});
+    }
+
     Choice karis;
     Choice down_filter;
     Choice up_filter;

@@ -36,6 +36,9 @@ struct HdrBloomOptions {
     // end excerpt
 
     HdrBloomOptions() {
+        all.dial({"bloom", {"on", "off"}});
+        all.dial({"levels"});
+        PyramidFilters::dials(all);
         all.preset({"recommended",
                     "splines by area: all the light, steady and round, at every size",
                     {{"down_filter", "spline"},

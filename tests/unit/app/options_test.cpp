@@ -52,6 +52,19 @@ TEST_F(OptionsTest, headlessWithoutMoreWritesFrameSixtyUnderTheRungsName) {
     EXPECT_EQ(parse({"--frames", "1..3"})->request.out, "99_test_%04d.png");
 }
 
+TEST_F(OptionsTest, aBudgetNamesOneKindOfErrorAndALimitInItsRange) {
+    EXPECT_EQ(parse({"--budget", "flip=0.01"})->budget->kind, Budget::Kind::flip);
+    EXPECT_EQ(parse({"--budget", "flip=0.01"})->budget->limit, 0.01);
+    EXPECT_EQ(parse({"--budget", "rmse=1"})->budget->kind, Budget::Kind::rmse);
+    EXPECT_EQ(parse({"--budget", "ev=16"})->budget->kind, Budget::Kind::ev);
+    EXPECT_EQ(parse({"--budget", "ev=16"})->context, ContextKind::headless);
+    EXPECT_TRUE(parse({"--budget", "ev=16"})->request.out.empty());
+    for (const char* wrong :
+         {"flip", "flip=", "flip=0", "flip=1.1", "flip=nan", "flip=0.1x", "ev=17", "psnr=40"})
+        EXPECT_NE(errorOf({"--budget", wrong}).find("--budget"), std::string::npos) << wrong;
+    EXPECT_NE(errorOf({"--budget", "flip=0.1", "--cost"}).find("excludes"), std::string::npos);
+}
+
 TEST_F(OptionsTest, whatWritesOrMeasuresNeedsNoWindow) {
     for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
              {"--out", "a.png"}, {"--frames", "1..2"}, {"--target", "hdr"}, {"--readings"}, {"--cost"}})

@@ -117,6 +117,12 @@ TEST_F(SettingsTest, theCommandLineBringsTheSameSettingsBack) {
     EXPECT_EQ(all.commandLine(), "");
 }
 
+TEST_F(SettingsTest, aMillionIsWrittenInDigits) {
+    all.integer("instances", 1'000'000, 1, 1'000'000, "help");
+    EXPECT_EQ(all.all().back().text(), "1000000");
+    EXPECT_CONTAINS(messageOf<UsageError>([&] { all.set("instances=0"); }), "from 1 to 1000000");
+}
+
 TEST_F(SettingsTest, aPresetResetsWhatItDoesNotName) {
     all.preset({"soft", "help", {{"knee", "2"}, {"bloom", "off"}}});
     EXPECT_FLOAT_EQ(knee, 0.6F) << "declaring it must not apply it";
@@ -147,6 +153,19 @@ TEST_F(SettingsTest, handlesStayValidWhileManyMoreAreDeclared) {
         all.number(std::to_string(i), i, 0, 1000, "help");
     all.set("knee=3");
     EXPECT_FLOAT_EQ(knee, 3);
+}
+
+TEST(Settings, aDialWithAValueThatDoesNotFitIsRefusedAtOnce) {
+    Settings settings;
+    settings.integer("levels", 5, 1, 8, "help");
+    const Choice filter = settings.choice("filter", "box", {"tent", "box"}, "help");
+    settings.dial({"levels"});
+    settings.dial({"filter", {"tent", "box"}});
+    EXPECT_EQ(settings.dials().size(), 2U);
+    EXPECT_TRUE(filter == "box"); // declaring tries values, and puts the default back
+    EXPECT_THROW(settings.dial({"filter", {"cone"}}), UsageError);
+    EXPECT_THROW(settings.dial({"filter"}), UsageError);
+    EXPECT_THROW(settings.dial({"colour"}), UsageError);
 }
 
 } // namespace

@@ -10,8 +10,9 @@ namespace {
 
 class PyramidBloomTest : public GlTest {
   protected:
-    // A grey disc of that brightness in the middle of black, alpha one half.
+    // A grey disc of that brightness in the middle of black, alpha one half where the format has it.
     static Texture disc(glm::ivec2 size, Format format = Format::rgba16f, float brightness = 3) {
+        const int channels = formatInfo(format).channels;
         std::vector<float> texels;
         for (int y = 0; y < size.y; ++y)
             for (int x = 0; x < size.x; ++x) {
@@ -19,7 +20,8 @@ class PyramidBloomTest : public GlTest {
                 const bool inside = std::hypot(from_middle.x, from_middle.y) <
                                     0.15F * static_cast<float>(std::min(size.x, size.y)) + 0.5F;
                 const float value = inside ? brightness : 0.0F;
-                texels.insert(texels.end(), {value, value, value, 0.5F});
+                for (int channel = 0; channel < channels; ++channel)
+                    texels.push_back(channel < 3 ? value : 0.5F);
             }
         return Texture({.size = size, .format = format}, texels);
     }
@@ -32,6 +34,11 @@ class PyramidBloomTest : public GlTest {
         Frame frame(1, target, triangle, nullptr);
         bloom.draw(frame, source, parameters);
         bloom.composite(frame, source, 1, target);
+    }
+
+    void useSplines() {
+        settings.set("down_filter=spline");
+        settings.set("up_filter=spline");
     }
 
     // Textures there are; names are given in order.
@@ -73,6 +80,31 @@ TEST_F(PyramidBloomTest, addsAGlowToWhatEightBitsHoldAndKeepsTheirAlpha) {
         }
 }
 
+TEST_F(PyramidBloomTest, takesEveryFormatThatHoldsColorAndFillsEveryOneThatCanBeDrawnTo) {
+    const glm::ivec2 size(64, 48);
+    PyramidBloom bloom(shaders);
+    for (const Format source_format :
+         {Format::rgba8, Format::srgb8_alpha8, Format::rgb10_a2, Format::r11f_g11f_b10f, Format::rgb16f,
+          Format::rgba16f, Format::rgba32f}) {
+        const Texture source = disc(size, source_format, 0.9F);
+        const Framebuffer in_floats = targetOf(size, Format::rgba32f);
+        render(bloom, source, in_floats, seed);
+        const float glow = pixelOf(in_floats.color(), 32, 24 + 14).r;
+        EXPECT_GT(glow, 0.05F) << formatInfo(source_format).name;
+        for (const Format target_format :
+             {Format::r8, Format::rg8, Format::rgba8, Format::rgb10_a2, Format::r16, Format::rg16,
+              Format::r16f, Format::rg16f, Format::r11f_g11f_b10f, Format::rgba16f, Format::r32f,
+              Format::rg32f}) {
+            const Framebuffer target = targetOf(size, target_format);
+            render(bloom, source, target, seed);
+            // The coarsest step here is that of eleven bits, 1/64 of the value, and half a code of eight.
+            EXPECT_NEAR(pixelOf(target.color(), 32, 24 + 14).r, glow, glow / 64 + 0.5F / 255)
+                << formatInfo(source_format).name << " to " << formatInfo(target_format).name;
+            context->debugLog().check("a format");
+        }
+    }
+}
+
 TEST_F(PyramidBloomTest, theEightBitPictureIsTheFloatOneRounded) {
     const glm::ivec2 size(50, 34);
     const Texture source = disc(size, Format::rgba8, 0.9F);
@@ -100,6 +132,15 @@ TEST_F(PyramidBloomTest, drawsAtEverySizeDownToOnePixel) {
         EXPECT_GE(middle.r, 0) << size.x << "x" << size.y;
         EXPECT_EQ(bloom.level(0).size(), glm::max(size / 2, 1));
         EXPECT_EQ(bloom.level(7).size(), glm::max(size / 256, 1));
+        context->debugLog().check("a size");
+    }
+    useSplines();
+    for (const glm::ivec2 size : {glm::ivec2(1, 1), {1, 7}, {2, 3}, {31, 17}, {500, 2}, {255, 257}}) {
+        const Texture source = disc(size);
+        const Framebuffer target = targetOf(size, Format::rgba32f);
+        render(bloom, source, target, seed);
+        EXPECT_TRUE(std::isfinite(pixelOf(target.color(), 0, 0).r)) << size.x << "x" << size.y;
+        EXPECT_EQ(bloom.level(0).size(), (size + 1) / 2);
         context->debugLog().check("a size");
     }
 }
@@ -138,12 +179,17 @@ TEST_F(PyramidBloomTest, drawsTheSameFrameAfterTwoHundredResizesAndLeavesNothing
         render(bloom, source, target, seed);
         return readTexture(target.color()).pixels;
     };
-    const auto before = at({64, 48});
-    const int living = livingTextures();
-    for (int i = 0; i < 200; ++i)
-        at({1 + i * 37 % 190, 1 + i * 53 % 170});
-    EXPECT_EQ(at({64, 48}), before);
-    EXPECT_EQ(livingTextures(), living);
+    const auto storm = [&] {
+        const auto before = at({64, 48});
+        const int living = livingTextures();
+        for (int i = 0; i < 200; ++i)
+            at({1 + i * 37 % 190, 1 + i * 53 % 170});
+        EXPECT_EQ(at({64, 48}), before);
+        EXPECT_EQ(livingTextures(), living);
+    };
+    storm();
+    useSplines(); // which round sizes up, and have one target more where the frame is small
+    storm();
 }
 
 TEST_F(PyramidBloomTest, movesAndTakesItsTexturesWithIt) {

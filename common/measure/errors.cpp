@@ -1,7 +1,7 @@
 // Sums over pixels in double, and the checks that make them mean something.
-#include "truth/errors.hpp"
+#include "measure/errors.hpp"
 
-#include "truth/color.hpp"
+#include "measure/color.hpp"
 
 #include <algorithm>
 #include <cmath>

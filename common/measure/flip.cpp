@@ -1,7 +1,7 @@
 // Constants and names are those of Andersson et al. 2020, and of 2021 where exposures and tone are concerned.
-#include "truth/flip.hpp"
+#include "measure/flip.hpp"
 
-#include "truth/color.hpp"
+#include "measure/color.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // Colour spaces from their standards' definitions; matrices are derived here, not typed.
-#include "truth/color.hpp"
+#include "measure/color.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // is. Every function throws std::invalid_argument where sizes differ or a colour is not finite.
 #pragma once
 
-#include "truth/raster.hpp"
+#include "measure/raster.hpp"
 
 #include <glm/vec2.hpp>
 #include <vector>

@@ -3,7 +3,7 @@
 // al. 2021, "Visualizing Errors in Rendered High Dynamic Range Images" (HDR-FLIP), from their formulas.
 #pragma once
 
-#include "truth/raster.hpp"
+#include "measure/raster.hpp"
 
 #include <functional>
 

@@ -1,7 +1,7 @@
 // Pictures from images: each sample in double, decoded or encoded once.
-#include "truth/raster.hpp"
+#include "measure/raster.hpp"
 
-#include "truth/color.hpp"
+#include "measure/color.hpp"
 
 #include <algorithm>
 #include <array>
