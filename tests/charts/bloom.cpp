@@ -4,9 +4,9 @@
 
 #include "charts/frames.hpp"
 #include "charts/spline_energy.hpp"
-#include "truth/convolution.hpp"
 #include "measure/errors.hpp"
 #include "measure/flip.hpp"
+#include "truth/convolution.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -526,11 +526,11 @@ void drawBloomCharts(const fs::path& programs, const fs::path& costs_csv, const 
         const auto ifCompared = [&](double value) {
             return method.competes() ? shortNumber(value) : std::string();
         };
-        table.rows.push_back({method.name, method.dial, shortNumber(e.sigma_px), shortNumber(cu),
-                              shortNumber(100 * e.shift_variance), ifCompared(100 * e.inner_energy_error),
-                              ifCompared(100 * e.energy_error), shortNumber(100 * e.squareness),
-                              shortNumber(e.flip[0]), shortNumber(e.flip[1]), shortNumber(e.flip[2]),
-                              ifCompared(e.mixture_flip), method.mark});
+        table.rows.push_back({method.name, method.dial, shortNumber(e.sigma_px),
+                              decimals(cu, cu < 100 ? 2 : 0), shortNumber(100 * e.shift_variance),
+                              ifCompared(100 * e.inner_energy_error), ifCompared(100 * e.energy_error),
+                              shortNumber(100 * e.squareness), shortNumber(e.flip[0]), shortNumber(e.flip[1]),
+                              shortNumber(e.flip[2]), ifCompared(e.mixture_flip), method.mark});
         // What is drawn is what the table says, to the same digits.
         const auto point = [&](const std::string& dial, double error) {
             return Point{method.name,      dial, cu, std::stod(shortNumber(error)), method.mark,
