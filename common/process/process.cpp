@@ -94,11 +94,12 @@ void Process::signal(int number) const {
     if (id_ > 0) kill(id_, number);
 }
 
-ProcessResult Process::ended(int status) {
+ProcessResult Process::ended(int status, long peak_memory_kib) {
     id_ = -1;
     ProcessResult result;
     result.signalled = WIFSIGNALED(status);
     result.exit_code = result.signalled ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+    result.peak_memory_kib = peak_memory_kib;
     result.out = contents(out_);
     result.err = contents(err_);
     return result;
@@ -106,8 +107,9 @@ ProcessResult Process::ended(int status) {
 
 std::optional<ProcessResult> Process::poll() {
     int status = 0;
-    if (waitpid(id_, &status, WNOHANG) == 0) return std::nullopt;
-    return ended(status);
+    rusage usage{};
+    if (wait4(id_, &status, WNOHANG, &usage) == 0) return std::nullopt;
+    return ended(status, usage.ru_maxrss);
 }
 
 ProcessResult Process::wait(std::chrono::milliseconds limit) {

@@ -14,7 +14,8 @@ namespace gll {
 struct ProcessResult {
     int exit_code = -1; // 128 + the signal's number where a signal ended it
     bool signalled = false;
-    bool timed_out = false; // and was killed for it
+    bool timed_out = false;   // and was killed for it
+    long peak_memory_kib = 0; // the most it had in memory at once
     std::string out;
     std::string err;
 };
@@ -43,7 +44,7 @@ class Process {
     ProcessResult wait(std::chrono::milliseconds limit);
 
   private:
-    ProcessResult ended(int status);
+    ProcessResult ended(int status, long peak_memory_kib);
 
     pid_t id_ = -1;
     int out_ = -1; // unlinked files: nobody has to drain them, and nothing is left behind

@@ -1,5 +1,6 @@
 #version 330 core
 // One step down to the average: every texel is the mean over the part of the source that it covers, whatever the sizes.
+#include "02_auto_exposure/is_finite.glsl"
 #if FROM_LIGHT
 #include "02_auto_exposure/log_luminance.glsl"
 #endif
@@ -15,7 +16,10 @@ vec2 sourceAt(ivec2 texel) {
     return isFinite(luma) ? vec2(logLuminance(luma), 1.0) : vec2(0.0);
 }
 #else
-vec2 sourceAt(ivec2 texel) { return texelFetch(source, texel, 0).rg; }
+vec2 sourceAt(ivec2 texel) {
+    vec2 mean = texelFetch(source, texel, 0).rg;
+    return isFinite(mean.r) && isFinite(mean.g) ? mean : vec2(0.0); // left out
+}
 #endif
 
 // excerpt: average

@@ -1,6 +1,7 @@
 #version 330 core
 // One pixel: the eye adapts by one frame, and what it has adapted to says how the frame is exposed.
 #include "02_auto_exposure/key.glsl"
+#include "02_auto_exposure/is_finite.glsl"
 
 uniform sampler2D metered;      // 1x1: log2 luminance of this frame
 uniform float lowest_stop;      // log2 luminance: the darkest scene that is adapted to
@@ -16,6 +17,7 @@ out vec4 exposure; // r: factor on scene light, g: luminance adapted to, b: key,
 // excerpt: exposure
 void main() {
     float metered_stop = texelFetch(metered, ivec2(0), 0).r;
+    if (!isFinite(metered_stop)) metered_stop = previous_stop; // the eye stays as it was
     float goal = clamp(metered_stop, lowest_stop, highest_stop);
     float stop = mix(previous_stop, goal, goal > previous_stop ? share_up : share_down);
     float average_luminance = exp2(stop);

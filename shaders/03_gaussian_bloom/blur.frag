@@ -1,6 +1,7 @@
 #version 330 core
 // One direction of a blur: a few fetches on both sides of the pixel, weighed and added. Every method of the rung is
 // this shader with other taps.
+#include "lib/finite.glsl"
 
 in vec2 uv;
 
@@ -18,6 +19,6 @@ void main() {
         vec2 away = uv_step * offsets[i];
         sum += (texture(source, uv + away).rgb + texture(source, uv - away).rgb) * weights[i];
     }
-    color = vec4(sum, 1.0);
+    color = vec4(finite(sum), 1.0);
 }
 // end excerpt

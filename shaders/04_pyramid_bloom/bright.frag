@@ -77,4 +77,4 @@ vec3 brightColor() {
 #endif
 // end excerpt
 
-void main() { bright_color = vec4(min(brightColor(), brightest_level), 1.0); }
+void main() { bright_color = vec4(bounded(brightColor()), 1.0); }

@@ -10,7 +10,22 @@ const float largest_float = 3.402823e38;
 
 // One infinite value, or one that is no number, would spread over the whole pyramid. Such count as dark, and so do
 // negative ones.
-bool isLight(float luma) { return luma >= 0.0 && luma <= largest_float; }
+bool isLight(float luma) {
+#ifdef UNGUARDED
+    return true;
+#else
+    return luma >= 0.0 && luma <= largest_float;
+#endif
+}
+
+// What a level may hold.
+vec3 bounded(vec3 linear_color) {
+#ifdef UNGUARDED
+    return linear_color;
+#else
+    return min(linear_color, brightest_level);
+#endif
+}
 
 // excerpt: bright_curve
 // 0 well below the threshold, 1 well above, a Hermite step between; a hard step where there is no knee.

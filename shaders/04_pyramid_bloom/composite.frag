@@ -13,6 +13,11 @@ out vec4 color;
 // excerpt: composite
 void main() {
     vec4 original = texelFetch(source, ivec2(gl_FragCoord.xy), 0);
-    color = vec4(original.rgb + finite(texture(bloom, uv).rgb) * strength, original.a);
+    vec3 lit = original.rgb + finite(texture(bloom, uv).rgb) * strength;
+#ifndef UNGUARDED
+    // Not-a-number is not greater than 0. More than the largest half float would be stored as infinite.
+    lit = min(mix(vec3(0.0), lit, greaterThan(lit, vec3(0.0))), 65504.0);
+#endif
+    color = vec4(lit, original.a);
 }
 // end excerpt

@@ -86,7 +86,7 @@ void main() {
         for (int i = 0; i < fetches; ++i)
             sum += light(texture(source, vec2(places_x[i], places_y[j]) / size).rgb) * (weights_x[i] * weights_y[j]);
 #if BRIGHT
-    sum = min(sum, brightest_level);
+    sum = bounded(sum);
 #endif
     color = vec4(finite(sum), 1.0);
 }

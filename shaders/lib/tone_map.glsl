@@ -77,8 +77,12 @@ uniform float white_point; // luminance, > 0
 #endif
 
 vec3 toneMap(vec3 linear_color) {
+#ifdef UNGUARDED
+    vec3 x = linear_color;
+#else
     // Not-a-number is not greater than 0, so it becomes 0; clamp() need not do that.
     vec3 x = min(mix(vec3(0.0), linear_color, greaterThan(linear_color, vec3(0.0))), tone_map_max);
+#endif
 #if TONE_MAP == TONE_MAP_CLAMP
     return min(x, 1.0);
 #elif TONE_MAP == TONE_MAP_REINHARD

@@ -163,7 +163,7 @@ std::vector<Set> combinations(const Case& one) {
 }
 
 TEST(Budget, findsWhatTryingEverythingFindsToWithinATenthOfItsCost) {
-    const glm::ivec2 size(160, 120);
+    const glm::ivec2 size(120, 90);
     // The swarm as a picture: drawing it again costs little, so that a tenth of the frame is a tenth of the
     // bloom too.
     const test::TemporaryFolder folder;
@@ -173,11 +173,12 @@ TEST(Budget, findsWhatTryingEverythingFindsToWithinATenthOfItsCost) {
     scene.run();
     std::filesystem::copy_file(scene.file(0), swarm);
     for (const Case& one :
-         {Case{"05_hdr_bloom", "flip=0.06", {{"levels", "4"}, {"intensity", "0.1"}}, "recommended", swarm},
-          Case{"04_pyramid_bloom", "flip=0.04", {{"levels", "2"}, {"strength", "0.2"}}, "seed", swarm},
+         {Case{"05_hdr_bloom", "flip=0.06", {{"levels", "3"}, {"intensity", "0.1"}}, "recommended", swarm},
           Case{"03_gaussian_bloom", "flip=0.05", {{"sigma", "4"}}, "seed", swarm},
           Case{"01_hdr", "flip=0.1", {}}}) {
         const json found = search(one, size, "callgrind");
+        // What it keeps for frames that it has not looked at, the others keep too.
+        const double limit = found["error_to_spend"];
         std::vector<View> views;
         for (const json& view : found["views"])
             views.push_back({view["frame"], {view["size"][0], view["size"][1]}});
@@ -185,11 +186,11 @@ TEST(Budget, findsWhatTryingEverythingFindsToWithinATenthOfItsCost) {
         const auto first_view = errors(one, all, {views[0]}); // the first of all is the best
         std::vector<Set> candidates{all[0]};
         for (std::size_t i = 1; i < all.size(); ++i)
-            if (first_view[i][0] <= one.limit()) candidates.push_back(all[i]);
+            if (first_view[i][0] <= limit) candidates.push_back(all[i]);
         const auto everywhere = errors(one, candidates, views);
         std::vector<Set> within{setOf(found["picked"])};
         for (std::size_t i = 0; i < candidates.size(); ++i)
-            if (worst(everywhere[i]) <= one.limit()) within.push_back(candidates[i]);
+            if (worst(everywhere[i]) <= limit) within.push_back(candidates[i]);
         for (Set& set : within)
             set = one.set + set;
         std::vector<std::string> arguments{"--preset", one.preset};

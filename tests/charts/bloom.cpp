@@ -133,26 +133,6 @@ std::vector<Method> methods() {
 
 std::string key(const Method& method) { return method.name + ", " + method.dial; }
 
-// A picture sampled as GL_LINEAR with clamped edges does, at another size: what the last pass does with the
-// bloom.
-ColorImage resized(const ColorImage& source, int width, int height) {
-    if (source.width == width && source.height == height) return source;
-    ColorImage result(width, height);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const double u = (x + 0.5) * source.width / width - 0.5;
-            const double v = (y + 0.5) * source.height / height - 0.5;
-            const int i = static_cast<int>(std::floor(u));
-            const int j = static_cast<int>(std::floor(v));
-            const auto at = [&](int a, int b) {
-                return source.at(std::clamp(a, 0, source.width - 1), std::clamp(b, 0, source.height - 1));
-            };
-            result.at(x, y) = (at(i, j) * (1 - (u - i)) + at(i + 1, j) * (u - i)) * (1 - (v - j)) +
-                              (at(i, j + 1) * (1 - (u - i)) + at(i + 1, j + 1) * (u - i)) * (v - j);
-        }
-    return result;
-}
-
 bool isSmall(glm::ivec2 size) { return std::min(size.x, size.y) < smallest_large_px; }
 
 // Where a method leaves its bloom. Splines give small frames one of the frame's own size.

@@ -4,20 +4,22 @@
 #include "io/image.hpp"
 #include "support/process.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <sstream>
 #include <unistd.h>
 
 namespace gll::charts {
 
-std::size_t Frames::ask(const Set& set, glm::ivec2 size, const std::string& target, const std::string& inject,
-                        int frame) {
+std::size_t Frames::ask(const Set& set, glm::ivec2 size, const std::string& target,
+                        const nlohmann::json& inject, int frame) {
     nlohmann::json line{{"set", set},
                         {"size", std::to_string(size.x) + "x" + std::to_string(size.y)},
                         {"frame", frame},
                         {"target", target},
                         {"out", file(count_).string()}};
-    if (!inject.empty()) line["inject"] = inject;
+    if (!inject.is_null()) line["inject"] = inject;
     lines_ += line.dump() + "\n";
     return count_++;
 }
@@ -36,7 +38,7 @@ truth::ColorImage Frames::read(std::size_t number) const {
 }
 
 std::vector<nlohmann::json> costs(const std::filesystem::path& rung, const std::vector<Set>& sets,
-                                  glm::ivec2 size, const std::vector<std::string>& more) {
+                                  glm::ivec2 size, const std::vector<std::string>& more_arguments) {
     std::string lines;
     for (const Set& set : sets)
         lines += nlohmann::json{{"cost", true},
@@ -52,13 +54,31 @@ std::vector<nlohmann::json> costs(const std::filesystem::path& rung, const std::
                                           "--json",
                                           "--batch",
                                           folder.write("batch.jsonl", lines).string()};
-    arguments.insert(arguments.end(), more.begin(), more.end());
+    arguments.insert(arguments.end(), more_arguments.begin(), more_arguments.end());
     const test::Result result = test::runToSuccess({rung, arguments}, std::chrono::minutes(60));
     std::vector<nlohmann::json> reports;
     std::istringstream stream(result.out);
     for (std::string line; std::getline(stream, line);)
         reports.push_back(nlohmann::json::parse(line));
     return reports;
+}
+
+truth::ColorImage resized(const truth::ColorImage& source, int width, int height) {
+    if (source.width == width && source.height == height) return source;
+    truth::ColorImage result(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const double u = (x + 0.5) * source.width / width - 0.5;
+            const double v = (y + 0.5) * source.height / height - 0.5;
+            const int i = static_cast<int>(std::floor(u));
+            const int j = static_cast<int>(std::floor(v));
+            const auto at = [&](int a, int b) {
+                return source.at(std::clamp(a, 0, source.width - 1), std::clamp(b, 0, source.height - 1));
+            };
+            result.at(x, y) = (at(i, j) * (1 - (u - i)) + at(i + 1, j) * (u - i)) * (1 - (v - j)) +
+                              (at(i, j + 1) * (1 - (u - i)) + at(i + 1, j + 1) * (u - i)) * (v - j);
+        }
+    return result;
 }
 
 void writeExr(const std::filesystem::path& file, const truth::ColorImage& image) {

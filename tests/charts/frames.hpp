@@ -23,9 +23,9 @@ class Frames {
         : rung_(std::move(rung)), arguments_(std::move(arguments)) {}
 
     // Asks for a frame; returns its number. target as --target has it, in full range; inject as --inject has
-    // it, or "".
+    // it, one or a list of them.
     std::size_t ask(const Set& set, glm::ivec2 size, const std::string& target,
-                    const std::string& inject = "", int frame = 60);
+                    const nlohmann::json& inject = nullptr, int frame = 60);
     void run();
     // Valid after run(). Throws where a value is not finite, naming it.
     truth::ColorImage read(std::size_t number) const;
@@ -44,7 +44,11 @@ class Frames {
 // What each pass of a frame costs in copies (cu), by the program's own --cost under callgrind: exact, and
 // slow.
 std::vector<nlohmann::json> costs(const std::filesystem::path& rung, const std::vector<Set>& sets,
-                                  glm::ivec2 size, const std::vector<std::string>& arguments = {});
+                                  glm::ivec2 size, const std::vector<std::string>& more_arguments = {});
+
+// A picture sampled as GL_LINEAR with clamped edges does, at another size: what a last pass does with a bloom
+// of half the frame's size.
+truth::ColorImage resized(const truth::ColorImage& source, int width, int height);
 
 // An .exr of linear light, for --image.
 void writeExr(const std::filesystem::path& file, const truth::ColorImage& image);

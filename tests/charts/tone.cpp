@@ -183,6 +183,13 @@ std::vector<std::string> figures(const HueError& hue, const AcesDistance& aces, 
 
 } // namespace
 
+ToneFigures toneFigures(const std::string& tone_map) {
+    const Rendering rendering = by({tone_map});
+    const HueError hue = hueError(rendering);
+    const GreyScale grey = greyScale(rendering);
+    return {hue.mean_deg, hue.largest_deg, grey.largest_fall, grey.largest};
+}
+
 void measureToneCosts(const fs::path& programs, const fs::path& costs_csv) {
     std::vector<std::string> names;
     std::vector<Set> sets;

@@ -2,8 +2,18 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace gll::charts {
+
+// What a tone map does to a sweep: 40 colours and a grey, each from six stops down to eight up.
+struct ToneFigures {
+    double hue_mean_deg = 0; // how far hues turn, in ICtCp
+    double hue_largest_deg = 0;
+    double largest_fall = 0;   // of the output where a grey grows; display light
+    double largest_output = 0; // of any channel
+};
+ToneFigures toneFigures(const std::string& tone_map);
 
 // Measures what each tone map takes more than clamping does, in instructions per pixel of the display pass of
 // 01_hdr and in copies, and writes it as a table: a minute or two, under callgrind. The fetch, exposure and

@@ -2,6 +2,7 @@
 // keeps such values or one that does not, and brought into a display's range by one tone map or by two, side
 // by side.
 #include "01_hdr/boxes.hpp"
+#include "01_hdr/guard.hpp"
 #include "01_hdr/tone_map.hpp"
 #include "app/camera.hpp"
 #include "app/scene_image.hpp"
@@ -23,6 +24,7 @@ struct HdrOptions {
     // excerpt: settings
     Choice format = all.choice("format", "rgba16f", formats, "what the scene is drawn into");
     ToneMapOptions display{all, "reinhard", "gamma22"};
+    Guard guard{all};
     Choice view = all.choice("view", "picture", {"picture", "stops"},
                              "the picture, or luminance in bands of a stop with clipped pixels striped");
     Toggle compare = all.toggle("compare", false, "another method to the right of a divider");
@@ -152,11 +154,14 @@ class Hdr final : public Rung {
     }
     // end excerpt
 
+    Defines displayDefines(const char* right_side) const {
+        return options_.display.defines() + options_.guard.defines() + options_.view.defines() +
+               Defines{{"RIGHT_SIDE", right_side}};
+    }
+
     // excerpt: display
     void display(Frame& frame) {
-        const Program& program =
-            shaders_.fullScreen("01_hdr/display.frag", options_.display.defines() + options_.view.defines() +
-                                                           Defines{{"RIGHT_SIDE", "0"}});
+        const Program& program = shaders_.fullScreen("01_hdr/display.frag", displayDefines("0"));
         frame.pass("display", frame.presented(),
                    {.program = program,
                     .inputs = {{"hdr", target("hdr", options_.format.name(), frame.size()).color()}},
@@ -166,7 +171,7 @@ class Hdr final : public Rung {
 
     // The same again with the other settings, over what is to the right of the divider.
     void displayRight(Frame& frame) {
-        Defines defines = options_.display.defines() + options_.view.defines() + Defines{{"RIGHT_SIDE", "1"}};
+        Defines defines = displayDefines("1");
         const Defines right = options_.right_tone_map.defines();
         for (Define& define : defines)
             if (define.name == "TONE_MAP")

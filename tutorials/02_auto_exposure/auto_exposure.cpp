@@ -31,15 +31,16 @@ AutoExposureOptions::AutoExposureOptions(Settings& settings)
       max_ev(settings.number("max_ev", 9, 0, 16, "brightest average that is adapted to, log2 luminance")),
       adapt(settings.toggle("adapt", true, "whether exposure follows the light over time, or at once")),
       adapt_up_s(settings.number("adapt_up_s", 0.4, 0, 10, "time constant towards brighter scenes, s")),
-      adapt_down_s(settings.number("adapt_down_s", 1.2, 0, 10, "time constant towards darker scenes, s")) {}
+      adapt_down_s(settings.number("adapt_down_s", 1.2, 0, 10, "time constant towards darker scenes, s")),
+      guard(settings) {}
 // end excerpt
 
 const Texture& LuminanceMeter::measure(Frame& frame, const Texture& hdr, float white_point) {
     const Texture& source = options_.reduction == "area"        ? drawAverages(frame, hdr)
                             : options_.reduction == "histogram" ? drawHistogram(frame, hdr)
                                                                 : drawMipmaps(frame, hdr, white_point);
-    const Program& program =
-        shaders_.fullScreen("02_auto_exposure/metered.frag", options_.reduction.defines());
+    const Program& program = shaders_.fullScreen("02_auto_exposure/metered.frag",
+                                                 options_.reduction.defines() + options_.guard.defines());
     frame.pass("metered", metered_,
                {.program = program,
                 .inputs = {{"source", source}},
@@ -55,8 +56,8 @@ const Texture& LuminanceMeter::measure(Frame& frame, const Texture& hdr, float w
 const Texture& LuminanceMeter::drawMipmaps(Frame& frame, const Texture& hdr, float white_point) {
     Framebuffer& target = options_.reduction == "mipmap_r16" ? log_r16_ : log_r16f_;
     target.resize(hdr.size());
-    const Program& program =
-        shaders_.fullScreen("02_auto_exposure/log_luminance.frag", options_.reduction.defines());
+    const Program& program = shaders_.fullScreen("02_auto_exposure/log_luminance.frag",
+                                                 options_.reduction.defines() + options_.guard.defines());
     frame.pass("log_luminance", target,
                {.program = program,
                 .inputs = {{"hdr", hdr}},
@@ -79,7 +80,8 @@ const Texture& LuminanceMeter::drawAverages(Frame& frame, const Texture& hdr) {
                 size);
         averages_[step].resize(size);
         const Program& program =
-            shaders_.fullScreen("02_auto_exposure/average.frag", {{"FROM_LIGHT", step == 0 ? "1" : "0"}});
+            shaders_.fullScreen("02_auto_exposure/average.frag",
+                                options_.guard.defines() + Defines{{"FROM_LIGHT", step == 0 ? "1" : "0"}});
         frame.pass("average" + std::to_string(step), averages_[step],
                    {.program = program,
                     .inputs = {{"source", *source}},
@@ -95,14 +97,14 @@ glm::ivec2 LuminanceMeter::histogramGrid(glm::ivec2 size) { return glm::min(size
 // excerpt: histogram
 const Texture& LuminanceMeter::drawHistogram(Frame& frame, const Texture& hdr) {
     const glm::ivec2 grid = histogramGrid(hdr.size());
-    frame.pass(
-        "histogram", histogram_,
-        {.program = shaders_.program("02_auto_exposure/histogram.vert", "02_auto_exposure/histogram.frag"),
-         .inputs = {{"hdr", hdr}},
-         .uniforms = {{"grid", grid}, {"epsilon", options_.epsilon}},
-         .instances = grid.x * grid.y, // of one triangle
-         .blend = Blend::add,
-         .clear_color = glm::vec4(0)});
+    frame.pass("histogram", histogram_,
+               {.program = shaders_.program("02_auto_exposure/histogram.vert",
+                                            "02_auto_exposure/histogram.frag", options_.guard.defines()),
+                .inputs = {{"hdr", hdr}},
+                .uniforms = {{"grid", grid}, {"epsilon", options_.epsilon}},
+                .instances = grid.x * grid.y, // of one triangle
+                .blend = Blend::add,
+                .clear_color = glm::vec4(0)});
     return histogram_.color();
 }
 // end excerpt
@@ -154,7 +156,7 @@ const Texture& AutoExposure::draw(Frame& frame, const Texture& metered, std::opt
         return static_cast<float>(adaptationShare(tau_s, 1 / frames_per_second));
     };
     frame.pass("exposure", exposure_,
-               {.program = shaders_.fullScreen("02_auto_exposure/exposure.frag"),
+               {.program = shaders_.fullScreen("02_auto_exposure/exposure.frag", options_.guard.defines()),
                 .inputs = {{"metered", metered}},
                 .uniforms = {{"lowest_stop", options_.min_ev},
                              {"highest_stop", options_.max_ev},

@@ -2,6 +2,7 @@
 // over time, and the factor on scene light that follows.
 #pragma once
 
+#include "01_hdr/guard.hpp"
 #include "app/frame.hpp"
 #include "app/settings.hpp"
 
@@ -26,6 +27,7 @@ struct AutoExposureOptions {
     Toggle adapt;
     Number adapt_up_s;
     Number adapt_down_s;
+    Guard guard;
 };
 
 // Reduces a frame's luminances to one number. Targets are kept between frames and made anew where the size

@@ -126,7 +126,8 @@ class AutoExposureRung final : public Rung {
 
     void composite(Frame& frame) {
         const Program& program =
-            shaders_.fullScreen("02_auto_exposure/composite.frag", options_.display.defines());
+            shaders_.fullScreen("02_auto_exposure/composite.frag",
+                                options_.display.defines() + options_.exposure.guard.defines());
         frame.pass("composite", frame.presented(),
                    {.program = program,
                     .inputs = {{"hdr", hdr_.color()}, {"exposure", *exposure_state_}},

@@ -193,22 +193,31 @@ const Texture& GaussianBlur::draw(Frame& frame, ShaderLibrary& shaders, const Te
     const glm::vec2 along_row(texel.x, 0);
     const glm::vec2 along_column =
         plan.vertical_steps_sideways ? glm::vec2(texel.y, 0) : glm::vec2(0, texel.y);
-    const Program& program =
-        shaders.fullScreen("03_gaussian_bloom/blur.frag", {{"TAPS", std::to_string(plan.taps.count())}});
-    const auto pass = [&](const std::string& name, const Framebuffer& target, const Texture& source,
-                          glm::vec2 step) {
-        frame.pass(name, target,
-                   {.program = program,
-                    .inputs = {{"source", source}},
-                    .uniforms = usedBy(program, {{"uv_step", step},
-                                                 {"offsets", plan.taps.offsets},
-                                                 {"weights", plan.taps.weights}})});
+    // Bad values are stopped where they come in and along every column: what gets into a pass along a row,
+    // the next one stops. Doing so in every pass would cost half as much again.
+    const auto program = [&](const Defines& guard) -> const Program& {
+        return shaders.fullScreen("03_gaussian_bloom/blur.frag",
+                                  guard + Defines{{"TAPS", std::to_string(plan.taps.count())}});
     };
-    if (plan.pairs == 0) pass("half", blurred_, bright, along_row);
+    const Program& guarded = program(plan.guard);
+    const Program& unguarded = program({{"UNGUARDED", "1"}});
+    const auto pass = [&](const std::string& name, const Framebuffer& target, const Texture& source,
+                          glm::vec2 step, const Program& blur) {
+        frame.pass(
+            name, target,
+            {.program = blur,
+             .inputs = {{"source", source}},
+             .uniforms = usedBy(
+                 blur, {{"uv_step", step}, {"offsets", plan.taps.offsets}, {"weights", plan.taps.weights}})});
+    };
+    if (plan.pairs == 0) pass("half", blurred_, bright, along_row, guarded);
     for (int i = 1; i <= plan.pairs; ++i) {
         const std::string number = std::to_string(i);
-        pass("horizontal" + number, across_, i == 1 ? bright : blurred_.color(), along_row);
-        pass("vertical" + number, blurred_, across_.color(), along_column);
+        if (i == 1)
+            pass("horizontal1", across_, bright, along_row, guarded);
+        else
+            pass("horizontal" + number, across_, blurred_.color(), along_row, unguarded);
+        pass("vertical" + number, blurred_, across_.color(), along_column, guarded);
     }
     return blurred_.color();
 }

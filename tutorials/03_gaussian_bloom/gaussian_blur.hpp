@@ -49,6 +49,7 @@ struct BlurPlan {
     int pairs = 1; // 0: the mean of four texels at half the resolution, and no pass after it
     bool half_resolution = false;
     bool vertical_steps_sideways = false; // the misprint: also the vertical passes fetch along the row
+    Defines guard = {};                   // the defines of a Guard
 };
 
 struct BlurRequest {

@@ -1,6 +1,7 @@
 // 03_gaussian_bloom: a street at night. The scene pass writes two targets, what is seen and what of it is
 // bright; the bright one is blurred by a Gaussian, in one of several ways, and added back before tone
 // mapping.
+#include "01_hdr/guard.hpp"
 #include "01_hdr/tone_map.hpp"
 #include "app/camera.hpp"
 #include "app/scene_image.hpp"
@@ -41,6 +42,7 @@ struct GaussianBloomOptions {
     Choice swizzle = all.choice("swizzle", "corrected", {"corrected", "as_printed"},
                                 "channels that the bright pass copies: red, green, blue or red, blue, green");
     Number strength = all.number("strength", 0.98, 0, 100, "how much blurred light is added to the scene");
+    Guard guard{all};
     ToneMapOptions display{all, "exposure", "gamma22"};
     OrbitSettings orbit{all};
     // end excerpt
@@ -139,13 +141,15 @@ class GaussianBloom final : public Rung {
                                   .iterations = options_.iterations,
                                   .corrected_offsets = options_.offsets == "corrected"});
         plan.vertical_steps_sideways = options_.vertical_step == "as_printed";
+        plan.guard = options_.guard.defines();
         return plan;
     }
 
     // excerpt: composite
     void composite(Frame& frame, const Texture* blurred) {
-        const Program& program = shaders_.fullScreen(
-            "lib/present.frag", options_.display.defines() + Defines{{"BLOOM", blurred ? "1" : "0"}});
+        const Program& program =
+            shaders_.fullScreen("lib/present.frag", options_.display.defines() + options_.guard.defines() +
+                                                        Defines{{"BLOOM", blurred ? "1" : "0"}});
         std::vector<UniformSetting> uniforms = options_.display.uniforms();
         std::vector<Input> inputs = {{"hdr", scene_->color(0)}};
         if (blurred) {

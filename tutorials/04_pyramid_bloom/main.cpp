@@ -74,7 +74,8 @@ class PyramidBloomRung final : public Rung {
         bloom_.drawDown(frame, hdr_.color(), parameters);
         if (options_.view == "pyramid") return drawSheet(frame, hdr_.color());
         bloom_.drawUp(frame, parameters);
-        bloom_.composite(frame, hdr_.color(), options_.strength * PyramidBloom::share(parameters), lit_);
+        bloom_.composite(frame, hdr_.color(), options_.strength * PyramidBloom::share(parameters), lit_,
+                         parameters.filters.guard.defines());
         if (options_.view == "sums") return drawSheet(frame, lit_.color());
         present(frame, lit_.color());
     }

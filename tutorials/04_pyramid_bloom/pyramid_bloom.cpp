@@ -104,22 +104,23 @@ float PyramidBloom::share(const PyramidBloomParameters& parameters) {
 // excerpt: down
 void PyramidBloom::drawDown(Frame& frame, const Texture& source, const PyramidBloomParameters& parameters) {
     allocate(source.size(), parameters);
+    const Defines guard = parameters.filters.guard.defines();
     if (usesSplines(parameters)) {
         drawDownBySplines(frame, source, parameters);
     } else {
         frame.pass("bright", levels_[0],
                    {.program = shaders_.fullScreen("04_pyramid_bloom/bright.frag",
-                                                   parameters.filters.karis.defines()),
+                                                   parameters.filters.karis.defines() + guard),
                     .inputs = {{"source", source}},
                     .uniforms = {{"threshold", parameters.threshold}, {"knee", parameters.knee}}});
         for (std::size_t i = 1; i < levels_.size(); ++i)
             frame.pass("down" + std::to_string(i), levels_[i],
                        {.program = shaders_.fullScreen("04_pyramid_bloom/down.frag",
-                                                       parameters.filters.down_filter.defines()),
+                                                       parameters.filters.down_filter.defines() + guard),
                         .inputs = {{"source", levels_[i - 1].color()}}});
     }
     for (std::size_t i = 0; i < blurred_.size(); ++i)
-        blur(frame, i, parameters.blur_radius);
+        blur(frame, i, parameters.blur_radius, guard);
 }
 // end excerpt
 
@@ -130,9 +131,10 @@ void PyramidBloom::drawDownBySplines(Frame& frame, const Texture& source,
                           bool bright) {
         const glm::ivec2 size = from.size();
         const bool exact = size.x % 2 == 0 && size.y % 2 == 0;
-        const Defines defines = parameters.filters.karis.defines() + Defines{{"BRIGHT", bright ? "1" : "0"},
-                                                                             {"DEGREE", bright ? "1" : "3"},
-                                                                             {"EXACT", exact ? "1" : "0"}};
+        const Defines defines = parameters.filters.karis.defines() + parameters.filters.guard.defines() +
+                                Defines{{"BRIGHT", bright ? "1" : "0"},
+                                        {"DEGREE", bright ? "1" : "3"},
+                                        {"EXACT", exact ? "1" : "0"}};
         const Program& program = shaders_.fullScreen("04_pyramid_bloom/spline.frag", defines);
         frame.pass(
             name, target,
@@ -147,10 +149,10 @@ void PyramidBloom::drawDownBySplines(Frame& frame, const Texture& source,
 // end excerpt
 
 // excerpt: blur
-void PyramidBloom::blur(Frame& frame, std::size_t i, float radius) {
+void PyramidBloom::blur(Frame& frame, std::size_t i, float radius, const Defines& guard) {
     const BlurTaps taps = blurTaps(radius);
-    const Program& program =
-        shaders_.fullScreen("04_pyramid_bloom/blur.frag", {{"TAPS", std::to_string(taps.offsets.size())}});
+    const Program& program = shaders_.fullScreen(
+        "04_pyramid_bloom/blur.frag", guard + Defines{{"TAPS", std::to_string(taps.offsets.size())}});
     const auto direction = [&](const std::string& name, const Framebuffer& target, const Texture& source,
                                glm::vec2 step) {
         frame.pass(name + std::to_string(i), target,
@@ -168,6 +170,7 @@ void PyramidBloom::blur(Frame& frame, std::size_t i, float radius) {
 
 // excerpt: up
 void PyramidBloom::drawUp(Frame& frame, const PyramidBloomParameters& parameters) {
+    const Defines guard = parameters.filters.guard.defines();
     const int count = parameters.levels - 1;
     for (int step = 0; step < count; ++step) {
         // From the smallest level on, so that each one takes along what it has received. As printed, each
@@ -175,22 +178,22 @@ void PyramidBloom::drawUp(Frame& frame, const PyramidBloomParameters& parameters
         const int i = parameters.accumulate ? count - 1 - step : step;
         frame.pass("up" + std::to_string(i), levels_.at(static_cast<std::size_t>(i)),
                    {.program = shaders_.fullScreen("04_pyramid_bloom/up.frag",
-                                                   parameters.filters.up_filter.defines()),
+                                                   parameters.filters.up_filter.defines() + guard),
                     .inputs = {{"source", level(i + 1)}},
                     .blend = i > 0 || parameters.filters.finest ? Blend::add : Blend::replace});
     }
     if (!full_.empty())
         frame.pass("up", full_[0],
                    {.program = shaders_.fullScreen("04_pyramid_bloom/up.frag",
-                                                   parameters.filters.up_filter.defines()),
+                                                   parameters.filters.up_filter.defines() + guard),
                     .inputs = {{"source", level(0)}}});
 }
 // end excerpt
 
-void PyramidBloom::composite(Frame& frame, const Texture& source, float strength,
-                             const Framebuffer& target) const {
+void PyramidBloom::composite(Frame& frame, const Texture& source, float strength, const Framebuffer& target,
+                             const Defines& guard) const {
     frame.pass("composite", target,
-               {.program = shaders_.fullScreen("04_pyramid_bloom/composite.frag"),
+               {.program = shaders_.fullScreen("04_pyramid_bloom/composite.frag", guard),
                 .inputs = {{"source", source}, {"bloom", result()}},
                 .uniforms = {{"strength", strength}}});
 }

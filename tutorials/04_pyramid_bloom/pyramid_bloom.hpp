@@ -2,6 +2,7 @@
 // asked for, and comes up again summed, so that a few taps a level make a glow as wide as the frame.
 #pragma once
 
+#include "01_hdr/guard.hpp"
 #include "app/frame.hpp"
 #include "app/settings.hpp"
 
@@ -25,7 +26,8 @@ struct PyramidFilters {
               "finest", true, "whether the largest level adds its own light, or only carries the others'")),
           normalise(
               settings.toggle("normalise", false,
-                              "divide by the number of levels: the bloom has the light of what is bright")) {}
+                              "divide by the number of levels: the bloom has the light of what is bright")),
+          guard(settings) {}
 
     // For --budget: the filters from the most accurate on.
     static void dials(Settings& settings) {
@@ -38,6 +40,7 @@ struct PyramidFilters {
     Choice up_filter;
     Toggle finest;
     Toggle normalise;
+    Guard guard;
 };
 
 // excerpt: parameters
@@ -86,7 +89,9 @@ class PyramidBloom {
     static float share(const PyramidBloomParameters& parameters);
 
     // Pass "composite": source + strength * bloom into a target of the source's size, alpha as in the source.
-    void composite(Frame& frame, const Texture& source, float strength, const Framebuffer& target) const;
+    // guard: the defines of a Guard.
+    void composite(Frame& frame, const Texture& source, float strength, const Framebuffer& target,
+                   const Defines& guard = {}) const;
 
     // Valid after drawDown(). Level 0 to parameters.levels - 1.
     const Texture& level(int i) const { return levels_.at(static_cast<std::size_t>(i)).color(); }
@@ -96,7 +101,7 @@ class PyramidBloom {
     void allocate(glm::ivec2 source_size, const PyramidBloomParameters& parameters);
     bool usesSplines(const PyramidBloomParameters& parameters) const;
     void drawDownBySplines(Frame& frame, const Texture& source, const PyramidBloomParameters& parameters);
-    void blur(Frame& frame, std::size_t i, float radius);
+    void blur(Frame& frame, std::size_t i, float radius, const Defines& guard);
 
     ShaderLibrary& shaders_;
     std::vector<Framebuffer> levels_;

@@ -105,8 +105,8 @@ class HdrBloom final : public Rung {
     // excerpt: composite
     void composite(Frame& frame, const Texture* bloom) {
         const Defines with_bloom = {{"BLOOM", bloom != nullptr ? "1" : "0"}};
-        const Program& program =
-            shaders_.fullScreen("lib/present.frag", options_.display.defines() + with_bloom);
+        const Program& program = shaders_.fullScreen(
+            "lib/present.frag", options_.display.defines() + options_.filters.guard.defines() + with_bloom);
         std::vector<UniformSetting> uniforms = usedBy(program, options_.display.uniforms());
         std::vector<Input> inputs = {{"hdr", hdr_.color()}};
         if (bloom != nullptr) {
