@@ -48,27 +48,44 @@ struct Box {
 
 // The chart's ranges, and where a point lands in the picture.
 struct Scale {
+    double x_begin = 0;
     double x_end = 1;
     double y_begin = 0;
     double y_end = 1;
+    bool log_x = false;
     bool log_y = false;
 
-    double x(double cost) const { return plot_left + (plot_right - plot_left) * cost / x_end; }
+    double x(double cost) const {
+        return plot_left + (plot_right - plot_left) * part(cost, x_begin, x_end, log_x);
+    }
     double y(double error) const {
-        const double part = log_y ? std::log(error / y_begin) / std::log(y_end / y_begin)
-                                  : (error - y_begin) / (y_end - y_begin);
-        return plot_bottom - (plot_bottom - plot_top) * part;
+        return plot_bottom - (plot_bottom - plot_top) * part(error, y_begin, y_end, log_y);
+    }
+
+  private:
+    static double part(double value, double begin, double end, bool logarithmic) {
+        return logarithmic ? std::log(value / begin) / std::log(end / begin)
+                           : (value - begin) / (end - begin);
     }
 };
 
 Scale scaleFor(const Axes& axes, const std::vector<Point>& points) {
     double cost = 0;
+    double cheapest = points.front().cost;
     double error = axes.floor;
     for (const Point& point : points) {
         cost = std::max(cost, point.cost);
+        cheapest = std::min(cheapest, point.cost);
         error = std::max(error, point.error);
     }
-    Scale scale{.x_end = cost > 0 ? cost * 1.08 : 1, .log_y = axes.log_y};
+    Scale scale;
+    scale.log_x = axes.log_x;
+    scale.log_y = axes.log_y;
+    scale.x_end = cost > 0 ? cost * 1.08 : 1;
+    if (axes.log_x) {
+        scale.x_begin = cheapest / 3; // room for names
+        scale.x_end = cost * 1.5;
+    }
     if (axes.log_y) {
         scale.y_begin = axes.floor;
         scale.y_end = std::pow(10, std::floor(std::log10(error)) + 1);
@@ -84,16 +101,17 @@ class Labels {
 
     // A text that must be there falls back to the upper right; another is left out.
     void put(const std::string& text, double x, double y, int font_px, bool must, const char* color) {
-        const double text_width = 0.6 * font_px * double(text.size());
+        const double text_width = 0.66 * font_px * double(text.size());
         const double half_height = 0.55 * font_px;
         constexpr double gap = 8;
         struct Place {
             double dx, dy;
             bool to_the_left;
         };
-        constexpr Place places[] = {{gap, 0, false},   {-gap, 0, true},  {gap, -11, false}, {gap, 11, false},
-                                    {-gap, -11, true}, {-gap, 11, true}, {gap, -22, false}, {gap, 22, false},
-                                    {-gap, -22, true}, {-gap, 22, true}};
+        constexpr Place places[] = {{gap, 0, false},   {-gap, 0, true},   {gap, -11, false},
+                                    {gap, 11, false},  {-gap, -11, true}, {-gap, 11, true},
+                                    {gap, -22, false}, {gap, 22, false},  {-gap, -22, true},
+                                    {-gap, 22, true},  {gap, -36, false}, {-gap, -36, true}};
         constexpr std::size_t near_places = 6; // farther off, a small text would seem to be another point's
         const Place* chosen = must ? &places[2] : nullptr;
         for (std::size_t i = 0; i < (must ? std::size(places) : near_places); ++i) {
@@ -131,10 +149,10 @@ class Labels {
 std::vector<bool> paretoFront(const std::vector<Point>& points) {
     std::vector<bool> front;
     for (const Point& point : points)
-        front.push_back(std::none_of(points.begin(), points.end(), [&](const Point& other) {
-            return other.cost <= point.cost && other.error <= point.error &&
-                   (other.cost < point.cost || other.error < point.error);
-        }));
+        front.push_back(point.competes && std::none_of(points.begin(), points.end(), [&](const Point& other) {
+                            return other.competes && other.cost <= point.cost && other.error <= point.error &&
+                                   (other.cost < point.cost || other.error < point.error);
+                        }));
     return front;
 }
 
@@ -163,6 +181,9 @@ std::vector<bool> worstFront(const std::vector<Point>& points) {
 void drawChart(const std::filesystem::path& file, const Axes& axes, const std::vector<Point>& points) {
     if (points.empty() || (axes.log_y && !(axes.floor > 0)))
         throw std::invalid_argument(file.string() + ": a chart needs points, a logarithmic one a bottom");
+    if (axes.log_x && std::any_of(points.begin(), points.end(), [](const Point& p) { return !(p.cost > 0); }))
+        throw std::invalid_argument(file.string() +
+                                    ": what costs nothing has no place on a logarithmic axis");
     const std::vector<bool> front = axes.dial_is_given ? worstFront(points) : paretoFront(points);
     const Scale scale = scaleFor(axes, points);
     const auto y = [&](double error) { return axes.log_y ? std::max(error, axes.floor) : error; };
@@ -210,24 +231,28 @@ void drawChart(const std::filesystem::path& file, const Axes& axes, const std::v
     for (std::size_t m = 0; m < methods.size(); ++m) {
         std::ostringstream black_points;
         std::ostringstream grey_points;
+        std::ostringstream other_points;
         std::ostringstream curve;
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (points[i].method != methods[m]) continue;
             const std::string place = exact(points[i].cost) + " " + exact(y(points[i].error)) + "\n";
             curve << place;
-            (black[i] ? black_points : grey_points) << place;
+            (!points[i].competes ? other_points : black[i] ? black_points : grey_points) << place;
         }
         const std::string number = std::to_string(m);
         const std::string shape = std::to_string(shapes[m % std::size(shapes)]);
         data << "$curve" << number << " << EOD\n" << curve.str() << "EOD\n";
         plot << ", \\\n $curve" << number << " with lines lw 1 dt 3 lc rgb '#999999' notitle";
         bool titled = false;
-        for (const auto& [points_text, color, name] : {std::tuple(black_points.str(), "#000000", "$black"),
-                                                       std::tuple(grey_points.str(), "#8a8a8a", "$grey")}) {
+        for (const auto& [points_text, color, name, size] :
+             {std::tuple(black_points.str(), "#000000", "$black", "0.9"),
+              std::tuple(grey_points.str(), "#8a8a8a", "$grey", "0.9"),
+              std::tuple(other_points.str(), "#8a8a8a", "$other", "0.5")}) {
             if (points_text.empty()) continue;
             data << name << number << " << EOD\n" << points_text << "EOD\n";
-            plot << ", \\\n " << name << number << " with points pt " << shape << " ps 0.9 lw 1.5 lc rgb '"
-                 << color << "' " << (titled ? std::string("notitle") : "title " + inQuotes(methods[m]));
+            plot << ", \\\n " << name << number << " with points pt " << shape << " ps " << size
+                 << " lw 1.5 lc rgb '" << color << "' "
+                 << (titled ? std::string("notitle") : "title " + inQuotes(methods[m]));
             titled = true;
         }
     }
@@ -260,14 +285,17 @@ void drawChart(const std::filesystem::path& file, const Axes& axes, const std::v
            << " noenhanced\n"
            << "set key at screen " << exact((plot_right + 15) / width) << "," << exact(1 - plot_top / height)
            << " left top Left reverse spacing 1.2 samplen 2 font ',11' noenhanced\n"
-           << "set grid lc rgb '#dddddd'\nset border 3\nset tics nomirror\nset xrange [0:"
-           << exact(scale.x_end) << "]\nset yrange [" << exact(scale.y_begin) << ":" << exact(scale.y_end)
-           << "]\n";
+           << "set grid lc rgb '#dddddd'\nset border 3\nset tics nomirror\nset xrange ["
+           << exact(scale.x_begin) << ":" << exact(scale.x_end) << "]\nset yrange [" << exact(scale.y_begin)
+           << ":" << exact(scale.y_end) << "]\n";
     if (axes.log_y) {
         script << "set logscale y\nset format y '%g'\n";
         if (std::any_of(points.begin(), points.end(), [&](const Point& p) { return p.error < axes.floor; }))
             script << "set ytics add ('≤ " << exact(axes.floor) << "' " << exact(axes.floor) << ")\n";
     }
+    if (axes.log_x) script << "set logscale x\nset format x '%g'\n";
+    if (!axes.others.empty())
+        plot << ", \\\n NaN with points pt 7 ps 0.5 lc rgb '#8a8a8a' title " << inQuotes(axes.others);
     script << plot.str() << "\n";
     folder.write("chart.gp", script.str());
     test::runToSuccess(

@@ -15,6 +15,7 @@ struct Point {
     double cost = 0;       // x
     double error = 0;      // y
     std::string mark = {}; // "seed 001", "recommended": named in the chart; else empty
+    bool competes = true;  // false: of the method's curve, but the answer to another question than the others
 };
 
 struct Axes {
@@ -25,9 +26,12 @@ struct Axes {
     double floor = 0;   // the bottom of a logarithmic axis, > 0 there
     // The dial is what the scene asks for and not for us to choose: a method is judged by its worst.
     bool dial_is_given = false;
+    bool log_x = false;      // from the power of ten below the cheapest
+    std::string others = {}; // what points are that do not compete, for the key
 };
 
-// Whether no other point is at once as cheap and as accurate, and better in one of the two.
+// Whether a point competes and no other such is at once as cheap and as accurate, and better in one of the
+// two.
 std::vector<bool> paretoFront(const std::vector<Point>& points);
 
 // The same for methods judged by their worst: true at the worst point of each method that no other beats.
@@ -36,7 +40,7 @@ std::vector<bool> worstFront(const std::vector<Point>& points);
 // Writes FILE (.svg): methods by the shape of their points, the front black and joined by a step line,
 // dominated points grey; marks are named, and so are the dial's ends where they have room. The same points
 // give the same bytes. Throws std::runtime_error where gnuplot cannot be run, std::invalid_argument without
-// points or for a logarithmic axis without a bottom.
+// points or for a logarithmic axis without a bottom or with a cost of 0.
 void drawChart(const std::filesystem::path& file, const Axes& axes, const std::vector<Point>& points);
 
 // A table to write as CSV, numbers in few digits so that the last bit of a float does not change a committed

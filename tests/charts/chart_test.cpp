@@ -39,6 +39,11 @@ TEST(ParetoFront, leavesOutWhatIsAsGoodButDearerOrAsDearButWorse) {
               (std::vector<bool>{true, false, false}));
 }
 
+TEST(ParetoFront, neitherHoldsNorIsBeatenByWhatDoesNotCompete) {
+    EXPECT_EQ(paretoFront({{"a", "4 px", 1, 1, "", false}, {"a", "18 px", 3, 3}, {"b", "18 px", 4, 4}}),
+              (std::vector<bool>{false, true, false}));
+}
+
 TEST(WorstFront, judgesAMethodByTheWorstPointOfItsDial) {
     // The first method's best point beats all others, but its worst does not.
     EXPECT_EQ(worstFront(
@@ -111,10 +116,32 @@ TEST(Drawing, putsAnErrorOfZeroAtTheBottomOfALogarithmicAxisAndSaysSo) {
     EXPECT_EQ(count(svg, "≤ 0.01"), 1);
 }
 
-TEST(Drawing, refusesALogarithmicAxisWithoutABottomAndAChartWithoutPoints) {
+TEST(Drawing, showsWhatDoesNotCompeteSmallAndSaysWhatItIs) {
+    const test::TemporaryFolder folder;
+    const Axes axes{.title = "a title", .x = "x", .y = "y", .others = "at other widths"};
+    std::vector<Point> list = points;
+    const std::string all = drawn(folder, axes, list);
+    list[3].competes = false; // it is grey already
+    const std::string svg = drawn(folder, axes, list);
+    EXPECT_GE(count(svg, ">at other widths<"), 1);
+    EXPECT_NE(svg, all);
+}
+
+TEST(Drawing, hasTheSameStepsBetweenPowersOfTenOfALogarithmicCost) {
+    const test::TemporaryFolder folder;
+    const std::string svg = drawn(folder, {.title = "a title", .x = "x", .y = "y", .log_x = true},
+                                  {{"a", "", 2, 3}, {"b", "", 200, 2}, {"c", "", 800, 1}});
+    for (const char* tic : {">1<", ">10<", ">100<", ">1000<"})
+        EXPECT_GE(count(svg, tic), 1) << tic;
+    EXPECT_EQ(count(svg, ">200<"), 0);
+}
+
+TEST(Drawing, refusesALogarithmicAxisWithoutABottomOrOfWhatCostsNothingAndAChartWithoutPoints) {
     const test::TemporaryFolder folder;
     EXPECT_THROW(drawn(folder, {"a title", "x", "y", true}, points), std::invalid_argument);
     EXPECT_THROW(drawn(folder, {"a title", "x", "y"}, {}), std::invalid_argument);
+    EXPECT_THROW(drawn(folder, {.title = "a title", .x = "x", .y = "y", .log_x = true}, {{"free", "", 0, 1}}),
+                 std::invalid_argument);
 }
 
 } // namespace
