@@ -42,7 +42,7 @@ std::string spelled(const std::pair<std::string, std::string>& set) { return set
 
 // What a frame is judged by.
 struct Seen {
-    truth::ColorImage display_light;
+    measure::ColorImage display_light;
     double exposure_ev = 0;
 };
 
@@ -199,8 +199,8 @@ class Search {
         }
         Image image = readTexture(renderer_.presented().color());
         image.colour_space = ColourSpace::srgb;
-        seen.display_light = options_.budget->kind == Budget::Kind::flip ? truth::linearColor(image)
-                                                                         : truth::displayColor(image);
+        seen.display_light = options_.budget->kind == Budget::Kind::flip ? measure::linearColor(image)
+                                                                         : measure::displayColor(image);
         return seen;
     }
 
@@ -211,12 +211,12 @@ class Search {
         case Budget::Kind::ev:
             return std::abs(seen.exposure_ev - view.best.exposure_ev);
         case Budget::Kind::rmse:
-            return truth::rmse(seen.display_light, view.best.display_light);
+            return measure::rmse(seen.display_light, view.best.display_light);
         case Budget::Kind::flip:
             break;
         }
         if (seen.display_light.pixels == view.best.display_light.pixels) return 0;
-        return truth::summary(truth::flip(seen.display_light, view.best.display_light)).mean;
+        return measure::summary(measure::flip(seen.display_light, view.best.display_light)).mean;
     }
 
     // The largest error over all views, or the first that is over the limit. Views that said no come first

@@ -8,7 +8,7 @@
 #include <glm/vec2.hpp>
 #include <numbers>
 
-namespace gll::truth {
+namespace gll::measure {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
@@ -154,4 +154,4 @@ ColorDifference colorDifference(const glm::dvec3& linear_color, const glm::dvec3
             .lab_lightness = lab.x - other_lab.x};
 }
 
-} // namespace gll::truth
+} // namespace gll::measure

@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-namespace gll::truth {
+namespace gll::measure {
 
 // IEC 61966-2-1, from linear light to display values and back; both for [0, 1].
 double srgbEncoded(double linear);
@@ -50,4 +50,4 @@ struct ColorDifference {
 ColorDifference colorDifference(const glm::dvec3& linear_color, const glm::dvec3& other_linear_color,
                                 double white_cd_m2 = default_white_cd_m2);
 
-} // namespace gll::truth
+} // namespace gll::measure

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace gll::truth {
+namespace gll::measure {
 namespace {
 
 // The mean over pixels of a function of both pictures' colours there.
@@ -160,4 +160,4 @@ ShiftVariance shiftVariance(const std::vector<ColorImage>& responses,
     return result;
 }
 
-} // namespace gll::truth
+} // namespace gll::measure

@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-namespace gll::truth {
+namespace gll::measure {
 
 // Root of the mean squared difference over all pixels and channels, in the pictures' own unit.
 double rmse(const ColorImage& image, const ColorImage& reference);
@@ -49,4 +49,4 @@ struct ShiftVariance {
 ShiftVariance shiftVariance(const std::vector<ColorImage>& responses,
                             const std::vector<glm::ivec2>& shifts_px, int period_px);
 
-} // namespace gll::truth
+} // namespace gll::measure

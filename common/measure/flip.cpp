@@ -14,7 +14,7 @@
 #include <numeric>
 #include <stdexcept>
 
-namespace gll::truth {
+namespace gll::measure {
 namespace {
 
 using Taps = std::vector<double>; // an odd number of weights, the middle one at the pixel itself
@@ -420,4 +420,4 @@ Image heatMap(const ScalarImage& map) {
     return image;
 }
 
-} // namespace gll::truth
+} // namespace gll::measure

@@ -7,7 +7,7 @@
 
 #include <functional>
 
-namespace gll::truth {
+namespace gll::measure {
 
 // The paper's observer: 0.7 m before a monitor 0.7 m wide with 3840 pixels, pi / 180 * 3840 = 67.02.
 inline constexpr double default_pixels_per_degree = 67;
@@ -61,4 +61,4 @@ FlipSummary summary(const ScalarImage& map);
 // between them, so that more error is always lighter.
 Image heatMap(const ScalarImage& map);
 
-} // namespace gll::truth
+} // namespace gll::measure

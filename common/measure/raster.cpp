@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace gll::truth {
+namespace gll::measure {
 namespace {
 
 constexpr int byte_values = 256;
@@ -123,4 +123,4 @@ void requireComparable(const char* what, const ColorImage& one, const ColorImage
     }
 }
 
-} // namespace gll::truth
+} // namespace gll::measure

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace gll::truth {
+namespace gll::measure {
 
 template <class Pixel>
 struct Raster {
@@ -50,4 +50,4 @@ void requireFinite(const Image& image, const std::string& name);
 // "what: pixel (x, y) is not finite" where a colour is infinite or not a number: no mean can hide one.
 void requireComparable(const char* what, const ColorImage& one, const ColorImage& other);
 
-} // namespace gll::truth
+} // namespace gll::measure

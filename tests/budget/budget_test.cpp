@@ -108,7 +108,7 @@ std::vector<std::vector<double>> errors(const Case& one, const std::vector<Set>&
     for (std::size_t s = 0; s < sets.size(); ++s)
         for (std::size_t v = 0; v < views.size(); ++v)
             result[s].push_back(
-                truth::summary(truth::flip(frames.read(s * views.size() + v), frames.read(v))).mean);
+                measure::summary(measure::flip(frames.read(s * views.size() + v), frames.read(v))).mean);
     return result;
 }
 

@@ -16,8 +16,8 @@ namespace gll::charts {
 namespace {
 
 namespace fs = std::filesystem;
-using truth::ColorImage;
-using truth::ScalarImage;
+using measure::ColorImage;
+using measure::ScalarImage;
 
 // A copy is the unit, so that a quarter or a sixteenth of 1280x720 gives the same figures to a few
 // hundredths; under callgrind, ten full-resolution passes take minutes otherwise.
@@ -304,9 +304,10 @@ class Bench {
                 responses.push_back(resized(frames.read(frame), sweep.side, sweep.side));
             const auto half = static_cast<std::ptrdiff_t>(method.period_px);
             const auto variance = [&](std::ptrdiff_t from) {
-                return truth::shiftVariance({responses.begin() + from, responses.begin() + from + half},
-                                            {sweep.shifts.begin() + from, sweep.shifts.begin() + from + half},
-                                            method.period_px)
+                return measure::shiftVariance(
+                           {responses.begin() + from, responses.begin() + from + half},
+                           {sweep.shifts.begin() + from, sweep.shifts.begin() + from + half},
+                           method.period_px)
                     .mean;
             };
             errors.shift_variance = (variance(0) + variance(half)) / 2;
@@ -420,9 +421,9 @@ class Bench {
                 };
                 const auto flipTo = [&](const ScalarImage& point_spread) {
                     const ColorImage exact = truth::convolved(light, point_spread, edgeOf(method));
-                    return truth::summary(truth::hdrFlip(withBloom(bloom, bloom_strength / gain(method)),
-                                                         withBloom(exact, bloom_strength))
-                                              .map)
+                    return measure::summary(measure::hdrFlip(withBloom(bloom, bloom_strength / gain(method)),
+                                                             withBloom(exact, bloom_strength))
+                                                .map)
                         .mean;
                 };
                 errors_[m].flip[scene] = flipTo(responses_[m]);

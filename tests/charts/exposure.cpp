@@ -224,9 +224,9 @@ Stops stopsOf(glm::ivec2 size, const std::function<double(int, int)>& luminance)
     return stops;
 }
 
-Stops stopsOf(const truth::ColorImage& frame) {
+Stops stopsOf(const measure::ColorImage& frame) {
     return stopsOf({frame.width, frame.height}, [&](int x, int y) {
-        return truth::luminance709(frame.at(x, frame.height - 1 - y)); // pictures begin at the top
+        return measure::luminance709(frame.at(x, frame.height - 1 - y)); // pictures begin at the top
     });
 }
 
@@ -305,7 +305,7 @@ class Metered {
     double reading(std::size_t number, std::size_t reduction) const {
         return readings_[number * list_.size() + reduction];
     }
-    Stops stops(std::size_t number) const { return stopsOf(truth::linearColor(loadImage(frame(number)))); }
+    Stops stops(std::size_t number) const { return stopsOf(measure::linearColor(loadImage(frame(number)))); }
 
   private:
     fs::path frame(std::size_t number) const { return folder_ / (std::to_string(number) + ".exr"); }

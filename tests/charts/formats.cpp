@@ -15,7 +15,7 @@ namespace gll::charts {
 namespace {
 
 namespace fs = std::filesystem;
-using truth::ColorImage;
+using measure::ColorImage;
 
 constexpr glm::ivec2 frame_size{640, 360};
 constexpr int exposures_ev[] = {-5, 0, 5}; // the window, the hall, its dark corners
@@ -35,7 +35,7 @@ const std::vector<StorageFormat> formats = {{"rgba8", 4},
 ColorImage codes(ColorImage image) {
     for (glm::dvec3& color : image.pixels)
         for (int c = 0; c < 3; ++c)
-            color[c] = 255 * truth::srgbEncoded(color[c]);
+            color[c] = 255 * measure::srgbEncoded(color[c]);
     return image;
 }
 
@@ -71,8 +71,8 @@ void drawFormatCharts(const fs::path& programs, const fs::path& costs_csv, const
             const StorageFormat& format = formats[i];
             const std::string mark = ev == 0 ? format.mark : "";
             const ColorImage frame = frames.read(first + i);
-            const double code_error = truth::rmse(codes(frame), codes(reference));
-            const double flip_error = truth::summary(truth::flip(frame, reference)).mean;
+            const double code_error = measure::rmse(codes(frame), codes(reference));
+            const double flip_error = measure::summary(measure::flip(frame, reference)).mean;
             table.rows.push_back({format.name, std::to_string(ev), std::to_string(format.bytes_per_pixel),
                                   decimals(costs.of(format.name, "cost_cu"), 2), shortNumber(code_error),
                                   shortNumber(flip_error), format.mark});

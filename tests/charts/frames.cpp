@@ -31,10 +31,10 @@ void Frames::run() {
     test::runToSuccess({rung_, arguments}, std::chrono::minutes(20));
 }
 
-truth::ColorImage Frames::read(std::size_t number) const {
+measure::ColorImage Frames::read(std::size_t number) const {
     const Image image = loadImage(file(number));
-    truth::requireFinite(image, rung_.filename().string() + ", frame " + std::to_string(number));
-    return truth::linearColor(image);
+    measure::requireFinite(image, rung_.filename().string() + ", frame " + std::to_string(number));
+    return measure::linearColor(image);
 }
 
 std::vector<nlohmann::json> costs(const std::filesystem::path& rung, const std::vector<Set>& sets,
@@ -63,9 +63,9 @@ std::vector<nlohmann::json> costs(const std::filesystem::path& rung, const std::
     return reports;
 }
 
-truth::ColorImage resized(const truth::ColorImage& source, int width, int height) {
+measure::ColorImage resized(const measure::ColorImage& source, int width, int height) {
     if (source.width == width && source.height == height) return source;
-    truth::ColorImage result(width, height);
+    measure::ColorImage result(width, height);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const double u = (x + 0.5) * source.width / width - 0.5;
@@ -81,7 +81,7 @@ truth::ColorImage resized(const truth::ColorImage& source, int width, int height
     return result;
 }
 
-void writeExr(const std::filesystem::path& file, const truth::ColorImage& image) {
+void writeExr(const std::filesystem::path& file, const measure::ColorImage& image) {
     std::vector<float> values;
     for (const glm::dvec3& color : image.pixels)
         for (int c = 0; c < 3; ++c)

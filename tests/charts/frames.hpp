@@ -28,7 +28,7 @@ class Frames {
                     const nlohmann::json& inject = nullptr, int frame = 60);
     void run();
     // Valid after run(). Throws where a value is not finite, naming it.
-    truth::ColorImage read(std::size_t number) const;
+    measure::ColorImage read(std::size_t number) const;
     std::filesystem::path file(std::size_t number) const {
         return folder_ / (std::to_string(number) + ".exr");
     }
@@ -48,10 +48,10 @@ std::vector<nlohmann::json> costs(const std::filesystem::path& rung, const std::
 
 // A picture sampled as GL_LINEAR with clamped edges does, at another size: what a last pass does with a bloom
 // of half the frame's size.
-truth::ColorImage resized(const truth::ColorImage& source, int width, int height);
+measure::ColorImage resized(const measure::ColorImage& source, int width, int height);
 
 // An .exr of linear light, for --image.
-void writeExr(const std::filesystem::path& file, const truth::ColorImage& image);
+void writeExr(const std::filesystem::path& file, const measure::ColorImage& image);
 
 // A progress line on stderr where that is a terminal.
 void sayProgress(const std::string& what);

@@ -99,10 +99,11 @@ HueError hueError(const Rendering& rendering) {
     HueError error;
     int with_hue = 0;
     for (std::size_t i = 0; i < scene.size(); ++i) {
-        const double luminance = truth::luminance709(display[i]);
-        if (truth::deltaEItp(truth::ictcp(display[i]), truth::ictcp(glm::dvec3(luminance))) < 1) continue;
-        const truth::ColorDifference difference =
-            truth::colorDifference(scene[i] * (luminance / truth::luminance709(scene[i])), display[i]);
+        const double luminance = measure::luminance709(display[i]);
+        if (measure::deltaEItp(measure::ictcp(display[i]), measure::ictcp(glm::dvec3(luminance))) < 1)
+            continue;
+        const measure::ColorDifference difference =
+            measure::colorDifference(scene[i] * (luminance / measure::luminance709(scene[i])), display[i]);
         const double angle_deg = difference.ictcp_hue_deg.value();
         error.mean_deg += angle_deg;
         error.lab_mean_deg += difference.lab_hue_deg.value();
@@ -126,7 +127,7 @@ AcesDistance acesDistance(const Curve& curve, const std::vector<glm::dvec3>& sce
     const auto at = [&](double ev) {
         double total = 0;
         for (std::size_t i = 0; i < scene.size(); ++i)
-            total += truth::deltaEItp(truth::ictcp(curve(scene[i] * std::exp2(ev))), aces_itp[i]);
+            total += measure::deltaEItp(measure::ictcp(curve(scene[i] * std::exp2(ev))), aces_itp[i]);
         return total / double(scene.size());
     };
     AcesDistance distance{.as_it_is = at(0), .at_best = at(0), .best_ev = 0};
@@ -150,8 +151,8 @@ struct GreyScale {
 
 GreyScale greyScale(const Rendering& rendering) {
     GreyScale grey;
-    const double black = truth::srgbDecoded(0.5 / 255);
-    const double white = truth::srgbDecoded(254.5 / 255);
+    const double black = measure::srgbDecoded(0.5 / 255);
+    const double white = measure::srgbDecoded(254.5 / 255);
     constexpr int steps_per_stop = 1000;
     std::vector<glm::dvec3> ramp;
     for (int i = -24 * steps_per_stop; i <= 16 * steps_per_stop; ++i)
@@ -218,7 +219,7 @@ void drawToneCharts(const fs::path& /*programs*/, const fs::path& costs_csv, con
         scene.emplace_back(std::exp2(stop));
     std::vector<glm::dvec3> aces_itp;
     for (const glm::dvec3& color : truth::acesDisplayLight(scene))
-        aces_itp.push_back(truth::ictcp(color));
+        aces_itp.push_back(measure::ictcp(color));
 
     Table table{{"tone map", "dial", "instructions/pixel", "cost cu", "hue error mean deg",
                  "hue error max deg", "CIELAB hue error mean deg", "washed out %", "delta E ITP to ACES",

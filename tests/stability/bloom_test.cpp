@@ -18,7 +18,7 @@ using charts::decimals;
 using charts::Frames;
 using charts::Set;
 using charts::shortNumber;
-using truth::ColorImage;
+using measure::ColorImage;
 
 constexpr double emitter = 1000; // luminance of one pixel in the dark
 
@@ -272,7 +272,7 @@ TEST_F(BloomStability, aSplinesGlowDoesNotDependOnTheGridAndTheOthersDo) {
             shifts.emplace_back(static_cast<int>(shifts.size()), 0);
             responses.push_back(charts::resized(runs.of(method.rung).read(i), size.x, size.y));
         }
-        const double variance = truth::shiftVariance(responses, shifts, period(method)).mean;
+        const double variance = measure::shiftVariance(responses, shifts, period(method)).mean;
         tell(method, "glow depends on the place: shift variance %", decimals(100 * variance, 2));
         if (!method.is_pyramid && !method.halves()) {
             EXPECT_LE(variance, 1e-6) << method.name; // the same taps at every pixel

@@ -75,7 +75,7 @@ class GuardCost : public testing::TestWithParam<GuardedChain> {};
 TEST_P(GuardCost, staysBelowAFifthOfACopy) {
     const GuardedChain& chain = GetParam();
     const test::TemporaryFolder folder;
-    charts::writeExr(folder / "grey.exr", truth::ColorImage(8, 8, glm::dvec3(0.5)));
+    charts::writeExr(folder / "grey.exr", measure::ColorImage(8, 8, glm::dvec3(0.5)));
     // Each twice, and the smaller count: what the driver does once is no cost of a pass.
     const charts::Set on = chain.set + charts::Set{{"guard", "on"}};
     const charts::Set off = chain.set + charts::Set{{"guard", "off"}};

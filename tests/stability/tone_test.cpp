@@ -68,7 +68,7 @@ constexpr int decades = 46;
 
 TEST_F(ToneStability, withGuardsLightOfAnyStrengthIsShownAndMoreIsNeverDarker) {
     const test::TemporaryFolder folder;
-    truth::ColorImage ramp(decades, 1);
+    measure::ColorImage ramp(decades, 1);
     for (int x = 0; x < decades; ++x)
         ramp.at(x, 0) = glm::dvec3(std::pow(10, darkest_decade + x));
     charts::writeExr(folder / "ramp.exr", ramp);
@@ -84,7 +84,7 @@ TEST_F(ToneStability, withGuardsLightOfAnyStrengthIsShownAndMoreIsNeverDarker) {
     frames.run();
     std::size_t next = 0;
     const auto code = [](const glm::dvec3& color) {
-        return static_cast<int>(std::lround(255 * truth::srgbEncoded(color.g)));
+        return static_cast<int>(std::lround(255 * measure::srgbEncoded(color.g)));
     };
     const auto shown = [&] {
         Shown result;

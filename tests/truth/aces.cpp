@@ -45,10 +45,12 @@ std::vector<glm::dvec3> acesDisplayLight(const std::vector<glm::dvec3>& linear_c
             if (!(std::isfinite(color.r) && std::isfinite(color.g) && std::isfinite(color.b)))
                 throw std::invalid_argument("acesDisplayLight: colour " + std::to_string(result.size()) +
                                             " is not finite");
-            const glm::vec3 scene_xyz(xyzFromBt709() * glm::clamp(color, -brightest_aces, brightest_aces));
+            const glm::vec3 scene_xyz(measure::xyzFromBt709() *
+                                      glm::clamp(color, -brightest_aces, brightest_aces));
             float xyz[3] = {scene_xyz.x, scene_xyz.y, scene_xyz.z};
             rendering->applyRGB(xyz);
-            result.push_back(glm::clamp(bt709FromXyz() * glm::dvec3(xyz[0], xyz[1], xyz[2]), 0.0, 1.0));
+            result.push_back(
+                glm::clamp(measure::bt709FromXyz() * glm::dvec3(xyz[0], xyz[1], xyz[2]), 0.0, 1.0));
         }
         return result;
     } catch (const ocio::Exception& error) {

@@ -1,7 +1,7 @@
 // OpenColorIO's ACES rendering against what the Academy's transforms are specified to do.
+#include "measure/color.hpp"
 #include "support/messages.hpp"
 #include "truth/aces.hpp"
-#include "measure/color.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ TEST(Aces, takesMidGreyToATenthOfWhite) {
     EXPECT_NEAR(grey(0.18), expected, 1e-4);
     // A perfect diffuser is no white: 0.812 as an sRGB code (acescentral.com, "Understanding the sRGB
     // RRT/ODT").
-    EXPECT_NEAR(srgbEncoded(grey(1)), 0.812, 5e-4);
+    EXPECT_NEAR(measure::srgbEncoded(grey(1)), 0.812, 5e-4);
 }
 
 TEST(Aces, rollsOffToWhiteSixAndAHalfStopsAboveGrey) {

@@ -168,7 +168,7 @@ ScalarImage convolved(const ScalarImage& image, const ScalarImage& point_spread,
 }
 
 ColorImage convolved(const ColorImage& image, const ScalarImage& point_spread, Edge edge) {
-    requireComparable("convolved", image, image);
+    measure::requireComparable("convolved", image, image);
     requireFinite("point spread function", point_spread);
     Convolution convolution(image.width, image.height, point_spread, edge);
     ColorImage result(image.width, image.height);

@@ -7,6 +7,9 @@
 
 namespace gll::truth {
 
+using measure::ColorImage;
+using measure::ScalarImage;
+
 // What lies beyond the picture's edges.
 enum class Edge {
     zero,  // nothing: light spreads out of the picture and is lost

@@ -1,13 +1,13 @@
 // The error measures and colour spaces against values worked out by hand or published.
-#include "support/messages.hpp"
 #include "measure/color.hpp"
 #include "measure/errors.hpp"
+#include "support/messages.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace gll::truth {
+namespace gll::measure {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -256,4 +256,4 @@ TEST(Raster, fromAnImageIsDecodedOrEncodedOnce) {
 }
 
 } // namespace
-} // namespace gll::truth
+} // namespace gll::measure

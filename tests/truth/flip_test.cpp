@@ -1,7 +1,7 @@
 // FLIP by what its papers promise of it, and against their formulas written out as sums in two dimensions.
-#include "support/messages.hpp"
 #include "measure/color.hpp"
 #include "measure/flip.hpp"
+#include "support/messages.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 #include <numbers>
 #include <random>
 
-namespace gll::truth {
+namespace gll::measure {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -338,4 +338,4 @@ TEST(HeatMap, isLighterWhereThereIsMoreError) {
 }
 
 } // namespace
-} // namespace gll::truth
+} // namespace gll::measure

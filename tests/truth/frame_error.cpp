@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-namespace gll::truth {
+namespace gll::measure {
 namespace {
 
 // All of it is held in double, some 200 bytes a pixel; an 8K frame has 33.2 million.
@@ -173,6 +173,6 @@ int run(int argc, char** argv) {
 }
 
 } // namespace
-} // namespace gll::truth
+} // namespace gll::measure
 
-int main(int argc, char** argv) { return gll::truth::run(argc, argv); }
+int main(int argc, char** argv) { return gll::measure::run(argc, argv); }

@@ -1,15 +1,15 @@
 // frame_error as people and charts call it; what it refuses is in hostile/frame_error.cpp.
 #include "io/image.hpp"
+#include "measure/errors.hpp"
+#include "measure/flip.hpp"
 #include "support/messages.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
-#include "measure/errors.hpp"
-#include "measure/flip.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace gll::truth {
+namespace gll::measure {
 namespace {
 
 Image image(int channels, ColourSpace colour_space) {
@@ -150,4 +150,4 @@ TEST_F(FrameError, saysItsNumbersToPeopleToo) {
 }
 
 } // namespace
-} // namespace gll::truth
+} // namespace gll::measure
