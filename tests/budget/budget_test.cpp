@@ -103,7 +103,7 @@ std::vector<std::vector<double>> errors(const Case& one, const std::vector<Set>&
     Frames frames(programs / one.rung, arguments);
     for (const Set& set : sets)
         for (const View& view : views)
-            frames.ask(one.set + set, view.size, "frame", "", view.frame);
+            frames.ask(one.set + set, view.size, "frame", {}, view.frame);
     frames.run();
     for (std::size_t s = 0; s < sets.size(); ++s)
         for (std::size_t v = 0; v < views.size(); ++v)
@@ -174,8 +174,9 @@ TEST(Budget, findsWhatTryingEverythingFindsToWithinATenthOfItsCost) {
     std::filesystem::copy_file(scene.file(0), swarm);
     for (const Case& one :
          {Case{"05_hdr_bloom", "flip=0.06", {{"levels", "3"}, {"intensity", "0.1"}}, "recommended", swarm},
+          Case{"04_pyramid_bloom", "flip=0.03", {{"levels", "2"}}, "recommended", swarm},
           Case{"03_gaussian_bloom", "flip=0.05", {{"sigma", "4"}}, "seed", swarm},
-          Case{"01_hdr", "flip=0.1", {}}}) {
+          Case{"02_auto_exposure", "ev=0.3", {{"overlay", "off"}}}, Case{"01_hdr", "flip=0.1", {}}}) {
         const json found = search(one, size, "callgrind");
         // What it keeps for frames that it has not looked at, the others keep too.
         const double limit = found["error_to_spend"];
