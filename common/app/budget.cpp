@@ -148,17 +148,19 @@ class Search {
         implied_ = renderer_.implied();
     }
 
-    // The frames asked for, or, where that is one, it and others of the animation; and one of another, odd
-    // size.
+    // The frames asked for, or, where that is one, it and others of the animation. And one in other, odd
+    // sizes and shapes: a window may be dragged to any, and a tall one shows other parts of the scene.
     void prepareViews() {
         const FrameRequest& request = options_.request;
-        std::vector<int> numbers;
-        const int last = request.isSequence() ? request.last_frame
-                                              : std::min(request.first_frame + frames_to_cover, max_frame);
+        const bool several = request.isSequence();
+        const int last =
+            several ? request.last_frame : std::min(request.first_frame + frames_to_cover, max_frame);
         const int count = std::min(most_frames, last - request.first_frame + 1);
+        const int parts = several ? count - 1 : most_frames; // a sequence is looked at to its end
+        std::vector<int> numbers;
         for (int i = 0; i < count; ++i)
             numbers.push_back(request.first_frame +
-                              static_cast<int>(std::int64_t(last - request.first_frame) * i / most_frames));
+                              static_cast<int>(std::int64_t(last - request.first_frame) * i / parts));
         for (const int number : numbers)
             addView(number, request.size);
         const glm::ivec2 half = request.size / 4 * 2 + 1;

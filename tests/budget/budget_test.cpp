@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstdio>
 #include <gtest/gtest.h>
+#include <set>
+#include <sstream>
 
 namespace gll {
 namespace {
@@ -226,6 +228,21 @@ TEST(Budget, leavesOutNothingThatATightBudgetNeeds) {
     const json found = search({"04_pyramid_bloom", "flip=0.0001", {}, "recommended"}, {160, 120}, "cpu");
     EXPECT_EQ(found["set"], json::object());
     EXPECT_EQ(found["not_needed"], json::array());
+}
+
+TEST(Budget, looksAtASequenceFromItsFirstFrameToItsLast) {
+    const auto frames = [](const char* range) {
+        const json found = json::parse(
+            test::runToSuccess({programs / "05_hdr_bloom",
+                                {"--budget", "rmse=0.5", "--json", "--frames", range, "--size", "64x48"}})
+                .out);
+        std::set<int> numbers;
+        for (const json& view : found["views"])
+            numbers.insert(view["frame"].get<int>());
+        return numbers;
+    };
+    EXPECT_EQ(frames("100..102"), (std::set<int>{100, 101, 102}));
+    EXPECT_EQ(frames("1..601"), (std::set<int>{1, 151, 301, 451, 601}));
 }
 
 TEST(Budget, printsThreeLinesAndRendersWhatItPicked) {
