@@ -305,17 +305,7 @@ class RungWindow {
     // Searches within a budget in a process of its own, and takes over what it finds.
     void attendSearch(glm::ivec2 size) {
         if (panel_->stop_asked) search_.reset();
-        if (panel_->search_asked) {
-            FrameRequest request;
-            request.size = size;
-            request.first_frame = request.last_frame = state_.frame;
-            request.sets = settings_.changed();
-            // Where a GPU draws, costs are the GPU's.
-            search_.emplace(budgetCommand(*panel_->search_asked, request, given_,
-                                          context_.info().is_software ? "" : "egl"));
-            search_start_ = Clock::now();
-            state_.message.clear();
-        }
+        if (panel_->search_asked) startSearch(*panel_->search_asked, size);
         if (!search_) return;
         const std::optional<ProcessResult> result = search_->poll();
         if (!result) return;
@@ -326,6 +316,22 @@ class RungWindow {
         state_.message = answer.text;
         std::printf("%s\n", answer.text.c_str());
         std::fflush(stdout);
+    }
+
+    void startSearch(const Budget& budget, glm::ivec2 size) {
+        FrameRequest request;
+        request.size = size;
+        request.first_frame = request.last_frame = state_.frame;
+        request.sets = settings_.changed();
+        // Where a GPU draws, costs are the GPU's.
+        const char* context = context_.info().is_software ? "" : "egl";
+        try {
+            search_.emplace(budgetCommand(budget, request, given_, context));
+            search_start_ = Clock::now();
+            state_.message.clear();
+        } catch (const std::runtime_error& error) {
+            state_.message = error.what(); // as for a frame that cannot be saved
+        }
     }
 
     // The present frame into the current folder, and beside it the command line that renders it again.
