@@ -200,7 +200,7 @@ class Search {
             return seen;
         }
         Image image = readTexture(renderer_.presented().color());
-        image.colour_space = ColourSpace::srgb;
+        image.color_space = ColorSpace::srgb;
         seen.display_light = options_.budget->kind == Budget::Kind::flip ? measure::linearColor(image)
                                                                          : measure::displayColor(image);
         return seen;

@@ -65,9 +65,9 @@ Image readTexture(const Texture& texture) {
     image.width = texture.size().x;
     image.height = texture.size().y;
     image.channels = info.channels;
-    image.colour_space = info.is_float                              ? ColourSpace::linear
-                         : texture.format() == Format::srgb8_alpha8 ? ColourSpace::srgb
-                                                                    : ColourSpace::data;
+    image.color_space = info.is_float                              ? ColorSpace::linear
+                        : texture.format() == Format::srgb8_alpha8 ? ColorSpace::srgb
+                                                                   : ColorSpace::data;
     if (info.type == GL_UNSIGNED_BYTE)
         image.pixels = readPixels<std::uint8_t>(texture, info.layout, GL_UNSIGNED_BYTE, info.channels);
     else
@@ -81,9 +81,9 @@ Image forFile(const Image& image, const std::string& extension) {
     result.height = image.height;
     const bool bytes = is8Bit(image);
     if (extension == ".png") {
-        result.colour_space = image.colour_space == ColourSpace::data ? ColourSpace::data : ColourSpace::srgb;
+        result.color_space = image.color_space == ColorSpace::data ? ColorSpace::data : ColorSpace::srgb;
         result.channels = image.channels == 1 ? 1 : 3;
-        const bool encode = image.colour_space == ColourSpace::linear;
+        const bool encode = image.color_space == ColorSpace::linear;
         result.pixels = converted<std::uint8_t>(image, result.channels, [&](float value, std::size_t) {
             if (bytes) return static_cast<std::uint8_t>(value);
             if (!(value > 0)) return std::uint8_t(0); // not-a-number too
@@ -92,9 +92,9 @@ Image forFile(const Image& image, const std::string& extension) {
         });
         return result;
     }
-    result.colour_space = image.colour_space == ColourSpace::data ? ColourSpace::data : ColourSpace::linear;
+    result.color_space = image.color_space == ColorSpace::data ? ColorSpace::data : ColorSpace::linear;
     result.channels = extension == ".hdr" ? 3 : image.channels;
-    const bool decode = image.colour_space == ColourSpace::srgb;
+    const bool decode = image.color_space == ColorSpace::srgb;
     result.pixels = converted<float>(image, result.channels, [&](float value, std::size_t channel) {
         if (bytes) value /= 255;
         return decode && channel < 3 ? srgbDecoded(value) : value;

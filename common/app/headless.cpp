@@ -80,12 +80,12 @@ Image renderImage(Renderer& renderer, const FrameRequest& request, int frame) {
     probe.requireDone(passes);
     if (request.target.empty()) {
         Image image = readTexture(renderer.presented().color());
-        image.colour_space = ColourSpace::srgb; // what the last pass wrote for a display
+        image.color_space = ColorSpace::srgb; // what the last pass wrote for a display
         return image;
     }
     if (const Texture* texture = findTarget(passes, request.target)) {
         Image image = readTexture(*texture);
-        if (texture == &renderer.presented().color()) image.colour_space = ColourSpace::srgb;
+        if (texture == &renderer.presented().color()) image.color_space = ColorSpace::srgb;
         return image;
     }
     if (probe.image) return *probe.image;

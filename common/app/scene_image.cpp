@@ -38,7 +38,7 @@ Texture loadTexture(const std::filesystem::path& path) {
         [&]<class Value>(const std::vector<Value>& pixels) {
             constexpr bool is_float = std::is_same_v<Value, float>;
             description.format = is_float ? Format::rgba32f : Format::srgb8_alpha8;
-            if (is_float && image.colour_space == ColourSpace::srgb)
+            if (is_float && image.color_space == ColorSpace::srgb)
                 throw std::runtime_error(path.string() +
                                          ": 16 bits of sRGB; give 8 bits, or linear light as .exr or .hdr");
             const auto upload = withColor(bottomUp(pixels, image.height), image.channels);

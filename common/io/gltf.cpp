@@ -108,7 +108,7 @@ class GltfReader {
     static MaterialData defaultMaterial() {
         MaterialData material;
         material.name = "default";
-        material.metallic = 1.0f;
+        material.metallic = 1.0F;
         return material;
     }
 
@@ -122,22 +122,22 @@ class GltfReader {
         MaterialData to;
         to.name = from.name;
         const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
-        to.base_colour = glm::vec4(glm::make_vec4(pbr.baseColorFactor.data()));
-        to.base_colour_image = image(pbr.baseColorTexture.index);
-        to.emitted_colour = glm::vec3(glm::make_vec3(from.emissiveFactor.data()));
+        to.base_color = glm::vec4(glm::make_vec4(pbr.baseColorFactor.data()));
+        to.base_color_texture.image = image(pbr.baseColorTexture.index);
+        to.emitted_color = glm::vec3(glm::make_vec3(from.emissiveFactor.data()));
         const auto strength = from.extensions.find("KHR_materials_emissive_strength");
         if (strength != from.extensions.end() && strength->second.Has("emissiveStrength"))
-            to.emitted_colour *=
+            to.emitted_color *=
                 static_cast<float>(strength->second.Get("emissiveStrength").GetNumberAsDouble());
-        to.emitted_colour_image = image(from.emissiveTexture.index);
-        to.normal_image = image(from.normalTexture.index);
+        to.emitted_color_texture.image = image(from.emissiveTexture.index);
+        to.normal_texture.image = image(from.normalTexture.index);
         to.normal_scale = static_cast<float>(from.normalTexture.scale);
-        to.occlusion = {.image = image(from.occlusionTexture.index), .channel = 0};
+        to.occlusion_texture = {.image = image(from.occlusionTexture.index), .channel = 0};
         to.occlusion_strength = static_cast<float>(from.occlusionTexture.strength);
         to.roughness = static_cast<float>(pbr.roughnessFactor);
-        to.roughness_image = {.image = image(pbr.metallicRoughnessTexture.index), .channel = 1};
+        to.roughness_texture = {.image = image(pbr.metallicRoughnessTexture.index), .channel = 1};
         to.metallic = static_cast<float>(pbr.metallicFactor);
-        to.metallic_image = {.image = image(pbr.metallicRoughnessTexture.index), .channel = 2};
+        to.metallic_texture = {.image = image(pbr.metallicRoughnessTexture.index), .channel = 2};
         to.double_sided = from.doubleSided;
         return to;
     }
@@ -307,9 +307,9 @@ class GltfReader {
         const double handedness = glm::dot(linear[0], cofactor[0]) < 0.0 ? -1.0 : 1.0;
 
         mesh.positions.resize(first + added);
-        mesh.normals.resize(first + added, glm::vec3(0.0f, 0.0f, 1.0f));
-        mesh.uvs.resize(first + added, glm::vec2(0.0f));
-        mesh.tangents.resize(first + added, glm::vec4(0.0f));
+        mesh.normals.resize(first + added, glm::vec3(0.0F, 0.0F, 1.0F));
+        mesh.uvs.resize(first + added, glm::vec2(0.0F));
+        mesh.tangents.resize(first + added, glm::vec4(0.0F));
 
         std::vector<glm::vec3> world(vertices);
         forEachElement(positions, [&](std::size_t i, const std::array<double, 4>& v) {
@@ -333,15 +333,15 @@ class GltfReader {
         if (normals >= 0)
             forEachElement(normals, [&](std::size_t i, const std::array<double, 4>& v) {
                 mesh.normals[first + i] =
-                    unitOr(cofactor * glm::dvec3(v[0], v[1], v[2]) * handedness, glm::vec3(0.0f, 0.0f, 1.0f));
+                    unitOr(cofactor * glm::dvec3(v[0], v[1], v[2]) * handedness, glm::vec3(0.0F, 0.0F, 1.0F));
             });
         if (tangents >= 0) {
             has_tangents = true;
             forEachElement(tangents, [&](std::size_t i, const std::array<double, 4>& v) {
-                const glm::vec3 tangent = unitOr(linear * glm::dvec3(v[0], v[1], v[2]), glm::vec3(0.0f));
+                const glm::vec3 tangent = unitOr(linear * glm::dvec3(v[0], v[1], v[2]), glm::vec3(0.0F));
                 const double sign = (v[3] < 0.0 ? -1.0 : 1.0) * handedness;
-                mesh.tangents[first + i] = tangent == glm::vec3(0.0f)
-                                               ? glm::vec4(0.0f)
+                mesh.tangents[first + i] = tangent == glm::vec3(0.0F)
+                                               ? glm::vec4(0.0F)
                                                : glm::vec4(tangent, static_cast<float>(sign));
             });
         }
@@ -355,7 +355,7 @@ class GltfReader {
                 const glm::dvec3 a(mesh.positions[corner[0]]);
                 const glm::dvec3 b(mesh.positions[corner[1]]);
                 const glm::dvec3 c(mesh.positions[corner[2]]);
-                const glm::vec3 flat = unitOr(glm::cross(b - a, c - a), glm::vec3(0.0f, 0.0f, 1.0f));
+                const glm::vec3 flat = unitOr(glm::cross(b - a, c - a), glm::vec3(0.0F, 0.0F, 1.0F));
                 for (const std::size_t vertex : corner)
                     mesh.normals[vertex] = flat;
             }

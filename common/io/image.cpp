@@ -203,7 +203,7 @@ Image decode(std::string_view bytes, const std::string& name) {
     image.height = spec.height;
     image.channels = spec.nchannels;
     const bool display_format = format == Format::png || format == Format::jpeg;
-    image.colour_space = display_format ? ColourSpace::srgb : ColourSpace::linear;
+    image.color_space = display_format ? ColorSpace::srgb : ColorSpace::linear;
     if (eight_bits)
         image.pixels = readPixels<std::uint8_t>(*input, spec, name);
     else
@@ -247,7 +247,7 @@ std::vector<unsigned char> encode(Format format, const Image& image, bool full_f
 
     if (format == Format::hdr)
         for (const float sample : std::get<std::vector<float>>(image.pixels))
-            if (!(sample >= 0.0f && sample <= std::numeric_limits<float>::max()))
+            if (!(sample >= 0.0F && sample <= std::numeric_limits<float>::max()))
                 throw fileError(name, "HDR holds no negative and no infinite or NaN values, write .exr");
 
     const OIIO::TypeDesc memory_type(eight_bits ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT);
@@ -261,7 +261,7 @@ std::vector<unsigned char> encode(Format format, const Image& image, bool full_f
         constexpr int png_filter_sub = 0x10;
         spec.attribute("png:filter", png_filter_sub);
         spec.attribute("png:compressionLevel", 1);
-        if (image.colour_space == ColourSpace::srgb) spec.attribute("oiio:ColorSpace", "sRGB");
+        if (image.color_space == ColorSpace::srgb) spec.attribute("oiio:ColorSpace", "sRGB");
     } else if (format == Format::exr) {
         spec.attribute("compression", "zip");
         // Without one OpenImageIO writes the time of day, and equal pixels would make unequal files.

@@ -12,7 +12,7 @@
 namespace gll {
 
 // What the numbers of an image mean.
-enum class ColourSpace {
+enum class ColorSpace {
     srgb,   // BT.709 primaries, sRGB transfer function: what a display is sent
     linear, // BT.709 primaries, linear light; any range
     data,   // not a colour: normals, roughness, depth
@@ -23,7 +23,7 @@ struct Image {
     int width = 0;
     int height = 0;
     int channels = 0; // 1 to 4: grey, grey + alpha, RGB, RGBA
-    ColourSpace colour_space = ColourSpace::linear;
+    ColorSpace color_space = ColorSpace::linear;
     // 8-bit values stand for value / 255; floats for themselves.
     std::variant<std::vector<std::uint8_t>, std::vector<float>> pixels;
 };

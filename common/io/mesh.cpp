@@ -47,7 +47,7 @@ glm::vec3 unitOr(const glm::dvec3& v, const glm::vec3& fallback) {
 
 std::vector<glm::vec3> angleWeightedNormals(const std::vector<glm::vec3>& positions,
                                             const std::vector<std::array<std::uint32_t, 3>>& triangles) {
-    std::vector<glm::vec3> normals(positions.size(), glm::vec3(0.0f));
+    std::vector<glm::vec3> normals(positions.size(), glm::vec3(0.0F));
     for (const auto& triangle : triangles) {
         const std::array<glm::dvec3, 3> corners = {positions[triangle[0]], positions[triangle[1]],
                                                    positions[triangle[2]]};

@@ -5,6 +5,7 @@
 
 #include "io/image.hpp"
 
+#include <glm/mat3x2.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -17,29 +18,51 @@
 
 namespace gll {
 
-// One channel of an image, for images that pack several quantities.
-struct ImageChannel {
-    ImageSource image;
-    int channel = 0; // 0 red to 3 alpha
+enum class TextureWrap { repeat, mirrored_repeat, clamp_to_edge };
+
+// An image as a surface reads it: which one, where, and how between and beyond its texels.
+struct TextureData {
+    ImageSource image; // empty: 1 in every channel
+    int channel = 0;   // of an image that packs several quantities, for those that are one: 0 red to 3 alpha
+    int uv_set = 0;    // 0: MeshData::uvs, 1: MeshData::second_uvs
+    // Applied to (u, v, 1) before the look-up (KHR_texture_transform; MTL's -s and -o).
+    glm::mat3x2 uv_transform = glm::mat3x2(1.0F);
+    TextureWrap wrap_u = TextureWrap::repeat;
+    TextureWrap wrap_v = TextureWrap::repeat;
+    bool nearest = false; // magnified texels are squares
+
+    bool empty() const { return image.empty(); }
+    bool operator==(const TextureData&) const = default;
 };
 
-// A metallic-roughness surface. An image's value multiplies its factor; an empty image counts as 1
-// everywhere. Colours are linear factors; colour images are sRGB, the others data.
+enum class AlphaMode {
+    opaque, // alpha means nothing
+    mask,   // what has less than alpha_cutoff is not there
+    blend,  // alpha mixes with what is behind
+};
+
+// A metallic-roughness surface. A texture's value multiplies its factor. Colors are linear factors; color
+// images are sRGB, the others data.
 struct MaterialData {
     std::string name;
-    glm::vec4 base_colour = glm::vec4(1.0f); // linear, alpha: opacity (its use is the caller's)
-    ImageSource base_colour_image;
-    glm::vec3 emitted_colour = glm::vec3(0.0f); // linear; glTF's emissive strength is multiplied in
-    ImageSource emitted_colour_image;
+    glm::vec4 base_color = glm::vec4(1.0F); // linear; alpha: opacity, see alpha_mode
+    TextureData base_color_texture;
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha_cutoff = 0.5F;
+    glm::vec3 emitted_color = glm::vec3(0.0F); // linear
+    TextureData emitted_color_texture;
     // Tangent space: red along +u, green up the image, which is towards *smaller* v (see MeshData::uvs).
-    ImageSource normal_image;
-    float normal_scale = 1.0f; // of the normal's x and y
-    ImageChannel occlusion;    // 1: nothing in the way
-    float occlusion_strength = 1.0f;
-    float roughness = 1.0f; // 0 to 1
-    ImageChannel roughness_image;
-    float metallic = 0.0f; // 0 to 1
-    ImageChannel metallic_image;
+    TextureData normal_texture;
+    float normal_scale = 1.0F; // of the normal's x and y
+    // Heights of the surface, read only where there is no normal texture.
+    TextureData height_texture;
+    float height_scale = 1.0F;     // what white is higher than black by, in texels of the image
+    TextureData occlusion_texture; // 1: nothing in the way
+    float occlusion_strength = 1.0F;
+    float roughness = 1.0F; // 0 to 1
+    TextureData roughness_texture;
+    float metallic = 0.0F; // 0 to 1
+    TextureData metallic_texture;
     bool double_sided = false;
 };
 
@@ -58,12 +81,19 @@ struct MeshData {
     // v = 0 is an image's top row, as in Image and in glTF; OBJ's are turned over on reading. Upload Image
     // rows in their order and a texture lookup needs no flip. Where a file has none: zero.
     std::vector<glm::vec2> uvs;
+    std::vector<glm::vec2> second_uvs; // of TextureData::uv_set 1; empty if no texture of the file uses them
+    // Linear, multiplied onto the base color; alpha onto its alpha. Empty if the file has none, else white
+    // where it has none.
+    std::vector<glm::vec4> colors;
     // Empty if no part of the file has any; else xyz of unit length and w = +-1, or all zero where it has
     // none. bitangent = cross(normal, tangent.xyz) * tangent.w points up the image. Only glTF has tangents.
     std::vector<glm::vec4> tangents;
     std::vector<std::uint32_t> indices; // three a triangle, each < positions.size()
     std::vector<MeshPart> parts;        // one a material that is used; together all indices
     std::vector<MaterialData> materials;
+    bool front_is_positive_z = false; // by the format's convention (glTF); OBJ has none
+    // What the file asks for and is not drawn, or was mended: "where: what", one line each.
+    std::vector<std::string> warnings;
 };
 
 // Of each file; glTF: also of all buffers together, and of all embedded images together.

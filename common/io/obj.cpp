@@ -83,25 +83,25 @@ float parseNumber(std::string_view word, const std::string& where) {
 // --- MTL ---
 
 // Numbers as "Kd r g b"; a single one stands for all three, as the MTL specification has it.
-glm::vec3 parseColour(std::string_view rest, const std::string& where) {
+glm::vec3 parseColor(std::string_view rest, const std::string& where) {
     glm::vec3 colour(parseNumber(nextWord(rest), where));
     if (!rest.empty()) {
         colour.y = parseNumber(nextWord(rest), where);
         colour.z = parseNumber(nextWord(rest), where);
     }
-    if (colour.x < 0.0f || colour.y < 0.0f || colour.z < 0.0f)
+    if (colour.x < 0.0F || colour.y < 0.0F || colour.z < 0.0F)
         throw fileError(where, "a colour is not negative in any channel");
     return colour;
 }
 
 float parseUnit(std::string_view rest, const std::string& where) {
     const float value = parseNumber(nextWord(rest), where);
-    if (value < 0.0f || value > 1.0f) throw fileError(where, "a value of 0 to 1 is needed");
+    if (value < 0.0F || value > 1.0F) throw fileError(where, "a value of 0 to 1 is needed");
     return value;
 }
 
 // "map_... [options] file" read by tinyobjloader, then the file looked up beside the MTL.
-ImageChannel parseTexture(const Statement& statement, const std::filesystem::path& folder) {
+TextureData parseTexture(const Statement& statement, const std::filesystem::path& folder) {
     std::string name;
     tinyobj::texture_option_t options{};
     options.imfchan = 'm';
@@ -119,7 +119,7 @@ ImageChannel parseTexture(const Statement& statement, const std::filesystem::pat
         throw fileError(statement.where,
                         "texture options -o and -s are not applied, change the mesh's vt instead");
 
-    ImageChannel result;
+    TextureData result;
     switch (options.imfchan) {
     case 'm':
     case 'l':
@@ -160,31 +160,31 @@ std::vector<MaterialData> readMtl(const std::filesystem::path& path) {
             return materials.back();
         };
         if (s.keyword == "Kd") {
-            material().base_colour = glm::vec4(parseColour(s.rest, s.where), material().base_colour.a);
+            material().base_color = glm::vec4(parseColor(s.rest, s.where), material().base_color.a);
         } else if (s.keyword == "Ke") {
-            material().emitted_colour = parseColour(s.rest, s.where);
+            material().emitted_color = parseColor(s.rest, s.where);
         } else if (s.keyword == "Pr") {
             material().roughness = parseUnit(s.rest, s.where);
         } else if (s.keyword == "Pm") {
             material().metallic = parseUnit(s.rest, s.where);
             metallic_given = true;
         } else if (s.keyword == "map_Kd") {
-            material().base_colour_image = parseTexture(s, folder).image;
+            material().base_color_texture.image = parseTexture(s, folder).image;
         } else if (s.keyword == "map_Ke") {
-            material().emitted_colour_image = parseTexture(s, folder).image;
-            if (material().emitted_colour == glm::vec3(0.0f)) material().emitted_colour = glm::vec3(1.0f);
+            material().emitted_color_texture.image = parseTexture(s, folder).image;
+            if (material().emitted_color == glm::vec3(0.0F)) material().emitted_color = glm::vec3(1.0F);
         } else if (s.keyword == "map_Ka") {
-            material().occlusion = parseTexture(s, folder);
+            material().occlusion_texture = parseTexture(s, folder);
         } else if (s.keyword == "map_Pr") {
-            material().roughness_image = parseTexture(s, folder);
+            material().roughness_texture = parseTexture(s, folder);
         } else if (s.keyword == "map_Pm") {
-            material().metallic_image = parseTexture(s, folder);
-            if (!metallic_given) material().metallic = 1.0f;
+            material().metallic_texture = parseTexture(s, folder);
+            if (!metallic_given) material().metallic = 1.0F;
         } else if (s.keyword == "norm") {
-            material().normal_image = parseTexture(s, folder).image;
+            material().normal_texture.image = parseTexture(s, folder).image;
             normal_given = true;
         } else if (s.keyword == "map_Bump" || s.keyword == "map_bump" || s.keyword == "bump") {
-            if (!normal_given) material().normal_image = parseTexture(s, folder).image;
+            if (!normal_given) material().normal_texture.image = parseTexture(s, folder).image;
         }
     });
     if (materials.empty()) throw fileError(path.string(), "has no material, add a newmtl statement");
@@ -419,9 +419,9 @@ MeshData loadObj(const std::filesystem::path& path) {
     std::istringstream stream(std::move(checked.text));
     NumberedMaterials materials(checked.materials.size());
     constexpr bool triangulate = false;
-    constexpr bool make_up_colours = false;
+    constexpr bool make_up_colors = false;
     if (!tinyobj::LoadObj(&attributes, &shapes, &unused_materials, &warning, &error, &stream, &materials,
-                          triangulate, make_up_colours))
+                          triangulate, make_up_colors))
         throw fileError(path.string(), "cannot be read (" + error.substr(0, error.find('\n')) + ")");
 
     const auto at3 = [](const std::vector<tinyobj::real_t>& v, int i) {
@@ -457,7 +457,7 @@ MeshData loadObj(const std::filesystem::path& path) {
         triangles[i / 3][i % 3] = static_cast<std::uint32_t>(corners[i].vertex_index);
         const int normal = corners[i].normal_index;
         normals_missing = normals_missing || normal < 0 ||
-                          unitOr(at3(attributes.normals, normal), glm::vec3(0.0f)) == glm::vec3(0.0f);
+                          unitOr(at3(attributes.normals, normal), glm::vec3(0.0F)) == glm::vec3(0.0F);
     }
     std::vector<glm::vec3> smooth_normals;
     if (normals_missing) smooth_normals = angleWeightedNormals(positions, triangles);
@@ -477,14 +477,14 @@ MeshData loadObj(const std::filesystem::path& path) {
                                                    " vertices, simplify it");
             const std::size_t position = static_cast<std::size_t>(corner.position);
             mesh.positions.push_back(positions[position]);
-            glm::vec3 normal(0.0f, 0.0f, 1.0f); // of a vertex that only faces without area touch
+            glm::vec3 normal(0.0F, 0.0F, 1.0F); // of a vertex that only faces without area touch
             if (normals_missing) normal = unitOr(smooth_normals[position], normal);
             if (corner.normal >= 0) normal = unitOr(at3(attributes.normals, corner.normal), normal);
             mesh.normals.push_back(normal);
-            glm::vec2 uv(0.0f);
+            glm::vec2 uv(0.0F);
             if (corner.uv >= 0) {
                 const std::size_t k = static_cast<std::size_t>(corner.uv) * 2;
-                uv = glm::vec2(attributes.texcoords.at(k), 1.0f - attributes.texcoords.at(k + 1));
+                uv = glm::vec2(attributes.texcoords.at(k), 1.0F - attributes.texcoords.at(k + 1));
             }
             mesh.uvs.push_back(uv);
         }

@@ -406,7 +406,7 @@ Image heatMap(const ScalarImage& map) {
     image.width = map.width;
     image.height = map.height;
     image.channels = 3;
-    image.colour_space = ColourSpace::srgb;
+    image.color_space = ColorSpace::srgb;
     std::vector<std::uint8_t> bytes;
     bytes.reserve(3 * map.pixels.size());
     for (const double error : map.pixels) {

@@ -16,7 +16,7 @@ constexpr int byte_values = 256;
 std::string place(int x, int y) { return "pixel (" + std::to_string(x) + ", " + std::to_string(y) + ")"; }
 
 void requireColor(const Image& image) {
-    if (image.colour_space == ColourSpace::data)
+    if (image.color_space == ColorSpace::data)
         throw std::invalid_argument("this image holds data, give one that holds colours");
 }
 
@@ -64,13 +64,13 @@ template struct Raster<glm::dvec3>;
 
 ColorImage linearColor(const Image& image) {
     requireColor(image);
-    if (image.colour_space == ColourSpace::srgb) return colors(image, ByTable(srgbDecoded));
+    if (image.color_space == ColorSpace::srgb) return colors(image, ByTable(srgbDecoded));
     return colors(image, ByTable([](double value) { return value; }));
 }
 
 ColorImage displayColor(const Image& image) {
     requireColor(image);
-    if (image.colour_space == ColourSpace::srgb)
+    if (image.color_space == ColorSpace::srgb)
         return colors(image, ByTable([](double value) { return value; }));
     return colors(image, ByTable([](double value) { return srgbEncoded(std::clamp(value, 0.0, 1.0)); }));
 }

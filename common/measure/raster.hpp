@@ -32,7 +32,7 @@ using ColorImage = Raster<glm::dvec3>; // RGB, BT.709 primaries
 using ScalarImage = Raster<double>;
 
 // The image's colours as linear light: sRGB is decoded (IEC 61966-2-1), linear stays as it is. Grey becomes
-// R = G = B; alpha is left out. Throws std::invalid_argument for ColourSpace::data.
+// R = G = B; alpha is left out. Throws std::invalid_argument for ColorSpace::data.
 ColorImage linearColor(const Image& image);
 
 // The image's colours as display values in [0, 1]: sRGB stays as it is, linear light is clamped to [0, 1] and

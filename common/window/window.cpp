@@ -343,7 +343,7 @@ class RungWindow {
             path = stem + "_" + std::to_string(i) + ".png";
         try {
             Image image = readTexture(renderer_.presented().color());
-            image.colour_space = ColourSpace::srgb;
+            image.color_space = ColorSpace::srgb;
             saveImage(path, forFile(image, ".png"));
             const std::string text_path = path.stem().string() + ".txt";
             std::ofstream text(text_path);

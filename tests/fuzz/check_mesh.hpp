@@ -26,11 +26,11 @@ inline void checkMesh(const MeshData& mesh) {
         for (int k = 0; k < 2; ++k)
             require(std::isfinite(mesh.uvs[i][k]));
         const glm::vec3 n = mesh.normals[i];
-        require(std::abs(n.x * n.x + n.y * n.y + n.z * n.z - 1.0f) < 1e-4f);
+        require(std::abs(n.x * n.x + n.y * n.y + n.z * n.z - 1.0F) < 1e-4f);
     }
     for (const glm::vec4& t : mesh.tangents)
-        require(t == glm::vec4(0.0f) ||
-                (std::abs(t.x * t.x + t.y * t.y + t.z * t.z - 1.0f) < 1e-4f && std::abs(t.w) == 1.0f));
+        require(t == glm::vec4(0.0F) ||
+                (std::abs(t.x * t.x + t.y * t.y + t.z * t.z - 1.0F) < 1e-4f && std::abs(t.w) == 1.0F));
     std::size_t covered = 0;
     for (const MeshPart& part : mesh.parts) {
         require(part.first_index == covered && part.index_count > 0 && part.index_count % 3 == 0);

@@ -12,7 +12,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const MeshData mesh = loadMesh(file);
         fuzz::checkMesh(mesh);
         for (const MaterialData& material : mesh.materials)
-            if (!material.base_colour_image.empty()) loadImage(material.base_colour_image);
+            if (!material.base_color_texture.image.empty()) loadImage(material.base_color_texture.image);
     });
     return 0;
 }

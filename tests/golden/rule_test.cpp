@@ -14,7 +14,7 @@ Image grey() {
     return {.width = width,
             .height = height,
             .channels = 3,
-            .colour_space = ColourSpace::srgb,
+            .color_space = ColorSpace::srgb,
             .pixels = std::vector<std::uint8_t>(std::size_t(width) * height * 3, 100)};
 }
 
@@ -49,7 +49,7 @@ TEST(GoldenRule, toleratesNothingInATinyPicture) {
     const Image tiny{.width = 2,
                      .height = 3,
                      .channels = 3,
-                     .colour_space = ColourSpace::srgb,
+                     .color_space = ColorSpace::srgb,
                      .pixels = std::vector<std::uint8_t>(18, 100)};
     EXPECT_FALSE(compare(tiny, changed(1, 1, tiny)).tolerable());
 }

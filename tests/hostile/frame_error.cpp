@@ -12,7 +12,7 @@ Image image(int width, int height, bool linear) {
     result.width = width;
     result.height = height;
     result.channels = 3;
-    result.colour_space = linear ? ColourSpace::linear : ColourSpace::srgb;
+    result.color_space = linear ? ColorSpace::linear : ColorSpace::srgb;
     const auto samples = static_cast<std::size_t>(width * height * 3);
     if (linear)
         result.pixels = std::vector<float>(samples, 0.5F);

@@ -239,7 +239,7 @@ TEST(Raster, fromAnImageIsDecodedOrEncodedOnce) {
     bytes.width = 2;
     bytes.height = 1;
     bytes.channels = 4;
-    bytes.colour_space = ColourSpace::srgb;
+    bytes.color_space = ColorSpace::srgb;
     bytes.pixels = std::vector<std::uint8_t>{0, 128, 255, 51, 255, 0, 0, 255};
     EXPECT_NEAR(displayColor(bytes).at(0, 0).g, 128 / 255.0, 1e-15);
     EXPECT_NEAR(linearColor(bytes).at(0, 0).g, 0.215861, 1e-6); // ((128 / 255 + 0.055) / 1.055)^2.4

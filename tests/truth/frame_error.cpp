@@ -33,7 +33,7 @@ Image readImage(const std::string& path) {
     return image;
 }
 
-bool isHdr(const Image& image) { return image.colour_space == ColourSpace::linear; }
+bool isHdr(const Image& image) { return image.color_space == ColorSpace::linear; }
 
 void requireSameKind(const Options& options, const Image& image, const Image& reference) {
     const auto size = [](const Image& one) {

@@ -12,18 +12,18 @@
 namespace gll::measure {
 namespace {
 
-Image image(int channels, ColourSpace colour_space) {
+Image image(int channels, ColorSpace color_space) {
     Image result;
     result.width = 24;
     result.height = 16;
     result.channels = channels;
-    result.colour_space = colour_space;
+    result.color_space = color_space;
     return result;
 }
 
 // A checkerboard of two codes, opaque where there is an alpha.
 Image board(int channels, std::uint8_t light, std::uint8_t dark) {
-    Image result = image(channels, ColourSpace::srgb);
+    Image result = image(channels, ColorSpace::srgb);
     std::vector<std::uint8_t> bytes;
     for (int y = 0; y < result.height; ++y)
         for (int x = 0; x < result.width; ++x)
@@ -35,7 +35,7 @@ Image board(int channels, std::uint8_t light, std::uint8_t dark) {
 
 // Light that doubles from left to right, times a factor.
 Image light(float factor) {
-    Image result = image(3, ColourSpace::linear);
+    Image result = image(3, ColorSpace::linear);
     std::vector<float> values;
     for (int y = 0; y < result.height; ++y)
         for (int x = 0; x < result.width; ++x)

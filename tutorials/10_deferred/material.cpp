@@ -107,7 +107,7 @@ Texture upload(const Bytes& pixels, glm::ivec2 size, bool is_color, MaterialFilt
 
 // rgb from one image, alpha from a channel of another; what an absent image stands for is filled in.
 Texture packed(ImageCache& cache, const ImageSource& color, glm::ivec3 color_default,
-               const ImageChannel& alpha, float alpha_factor, float alpha_offset, bool is_color,
+               const TextureData& alpha, float alpha_factor, float alpha_offset, bool is_color,
                MaterialFilter filter) {
     const Image* color_image = cache.get(color);
     const Image* alpha_image = cache.get(alpha.image);
@@ -131,10 +131,10 @@ Texture packed(ImageCache& cache, const ImageSource& color, glm::ivec3 color_def
 MaterialTextures loadMaterial(const MaterialData& material, MaterialFilter filter) {
     ImageCache cache;
     const float open = 1 - material.occlusion_strength;
-    return {.base = packed(cache, material.base_colour_image, {255, 255, 255}, material.occlusion,
-                           material.occlusion_strength, open, true, filter),
-            .surface = packed(cache, material.normal_image, {128, 128, 255}, material.roughness_image,
-                              material.roughness, 0, false, filter)};
+    return {.base = packed(cache, material.base_color_texture.image, {255, 255, 255},
+                           material.occlusion_texture, material.occlusion_strength, open, true, filter),
+            .surface = packed(cache, material.normal_texture.image, {128, 128, 255},
+                              material.roughness_texture, material.roughness, 0, false, filter)};
 }
 
 } // namespace gll

@@ -93,7 +93,7 @@ std::vector<Draw> Scene::materialDraws(MaterialFilter filter, bool flip_v) {
         if (!textures) textures = loadMaterial(surface.data, filter);
         draws.push_back({.mesh = *part.mesh,
                          .inputs = {{"base_map", textures->base}, {"surface_map", textures->surface}},
-                         .uniforms = {{"base_color", glm::vec3(surface.data.base_colour)},
+                         .uniforms = {{"base_color", glm::vec3(surface.data.base_color)},
                                       {"occluded_albedo", surface.occluded_albedo},
                                       {"specular_scale", surface.specular_scale},
                                       {"shininess", surface.shininess},

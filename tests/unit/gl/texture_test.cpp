@@ -121,7 +121,7 @@ TEST_F(TextureTest, srgbIsDecodedForTheShaderAndReadBackAsStored) {
     const Image image = readTexture(texture);
     EXPECT_EQ(std::get<std::vector<std::uint8_t>>(image.pixels),
               (std::vector<std::uint8_t>{188, 0, 255, 188}));
-    EXPECT_EQ(image.colour_space, ColourSpace::srgb);
+    EXPECT_EQ(image.color_space, ColorSpace::srgb);
 }
 
 TEST_F(TextureTest, levelCountIsTheFloorOfTheBinaryLogarithmPlusOne) {

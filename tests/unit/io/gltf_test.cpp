@@ -28,12 +28,12 @@ TEST(Gltf, ATriangleComesOutAsItIsWritten) {
     const MeshData mesh = load(folder, GltfMaker());
     EXPECT_EQ(mesh.positions, triangle);
     EXPECT_EQ(mesh.normals, std::vector<glm::vec3>(3, glm::vec3(0, 0, 1))) << "flat, from the face";
-    EXPECT_EQ(mesh.uvs, std::vector<glm::vec2>(3, glm::vec2(0.0f)));
+    EXPECT_EQ(mesh.uvs, std::vector<glm::vec2>(3, glm::vec2(0.0F)));
     EXPECT_EQ(mesh.indices, (std::vector<std::uint32_t>{0, 1, 2}));
     EXPECT_TRUE(mesh.tangents.empty());
     ASSERT_EQ(mesh.parts.size(), 1u);
     ASSERT_EQ(mesh.materials.size(), 1u);
-    EXPECT_EQ(mesh.materials[0].metallic, 1.0f) << "glTF's default material is a metal";
+    EXPECT_EQ(mesh.materials[0].metallic, 1.0F) << "glTF's default material is a metal";
 }
 
 TEST(Gltf, ABinaryFileAndAnExternalBufferHoldTheSameMesh) {
@@ -130,25 +130,25 @@ TEST(Gltf, NormalisedIntegersSpanZeroToOne) {
     const std::size_t bytes = maker.accessor(packed<std::uint8_t>({0, 255, 51, 0, 255, 0}), 5121, "VEC2", 3);
     maker.json["accessors"][bytes]["normalized"] = true;
     maker.attributes()["TEXCOORD_0"] = bytes;
-    EXPECT_EQ(load(folder, maker).uvs, (std::vector<glm::vec2>{{0, 1}, {0.2f, 0}, {1, 0}}));
+    EXPECT_EQ(load(folder, maker).uvs, (std::vector<glm::vec2>{{0, 1}, {0.2F, 0}, {1, 0}}));
     const std::size_t shorts =
         maker.accessor(packed<std::uint16_t>({0, 65535, 13107, 0, 65535, 0}), 5123, "VEC2", 3);
     maker.json["accessors"][shorts]["normalized"] = true;
     maker.attributes()["TEXCOORD_0"] = shorts;
-    EXPECT_EQ(load(folder, maker).uvs, (std::vector<glm::vec2>{{0, 1}, {0.2f, 0}, {1, 0}}));
+    EXPECT_EQ(load(folder, maker).uvs, (std::vector<glm::vec2>{{0, 1}, {0.2F, 0}, {1, 0}}));
 }
 
 TEST(Gltf, NodesMoveTurnAndScaleInThatOrderDownTheTree) {
     const TemporaryFolder folder;
     GltfMaker maker;
-    const float half = std::sqrt(0.5f);
+    const float half = std::sqrt(0.5F);
     maker.json["nodes"] = {
         {{"children", {1}}, {"translation", {10, 0, 0}}},
         {{"mesh", 0}, {"scale", {2, 3, 1}}, {"rotation", {0, 0, half, half}}}}; // 90 degrees about z
     const MeshData mesh = load(folder, maker);
     const std::vector<glm::vec3> expected = {{10, 0, 0}, {10, 2, 0}, {7, 0, 0}};
     for (std::size_t i = 0; i < 3; ++i)
-        EXPECT_NEAR(glm::distance(mesh.positions[i], expected[i]), 0.0f, 1e-5f);
+        EXPECT_NEAR(glm::distance(mesh.positions[i], expected[i]), 0.0F, 1e-5f);
 
     maker.json["nodes"] = {{{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1}}}};
     EXPECT_EQ(load(folder, maker).positions[0], glm::vec3(5, 6, 7));
@@ -160,9 +160,9 @@ TEST(Gltf, NormalsTurnByTheInverseTranspose) {
     maker.attributes()["NORMAL"] =
         maker.accessor(packed<float>({1, 1, 0, 1, 1, 0, 1, 1, 0}), 5126, "VEC3", 3);
     maker.json["nodes"][0]["scale"] = {2, 1, 1};
-    const glm::vec3 expected = glm::normalize(glm::vec3(0.5f, 1.0f, 0.0f));
+    const glm::vec3 expected = glm::normalize(glm::vec3(0.5F, 1.0F, 0.0F));
     for (const glm::vec3& normal : load(folder, maker).normals)
-        EXPECT_NEAR(glm::distance(normal, expected), 0.0f, 1e-6f);
+        EXPECT_NEAR(glm::distance(normal, expected), 0.0F, 1e-6f);
 }
 
 TEST(Gltf, AMirroredNodeKeepsItsFrontsInFront) {
@@ -209,7 +209,7 @@ TEST(Gltf, TangentsAreZeroForPartsThatHaveNone) {
     const MeshData mesh = load(folder, maker);
     ASSERT_EQ(mesh.tangents.size(), 6u);
     EXPECT_EQ(mesh.tangents[0], glm::vec4(1, 0, 0, -1));
-    EXPECT_EQ(mesh.tangents[5], glm::vec4(0.0f));
+    EXPECT_EQ(mesh.tangents[5], glm::vec4(0.0F));
 }
 
 TEST(Gltf, TheDefaultSceneIsReadElseTheFirstElseAllRoots) {
@@ -252,19 +252,19 @@ TEST(Gltf, MaterialsNameImagesChannelsAndFactors) {
     ASSERT_EQ(mesh.materials.size(), 1u);
     const MaterialData& cat = mesh.materials[0];
     EXPECT_EQ(cat.name, "cat");
-    EXPECT_EQ(cat.base_colour, glm::vec4(1, 0.5f, 0.25f, 1));
-    EXPECT_EQ(cat.base_colour_image.file.filename(), "colour 1.png");
-    EXPECT_EQ(*cat.metallic_image.image.encoded, "encoded bytes");
-    EXPECT_EQ(cat.metallic_image.channel, 2);
-    EXPECT_EQ(cat.metallic, 0.5f);
-    EXPECT_EQ(cat.roughness_image.channel, 1);
-    EXPECT_EQ(cat.roughness, 0.25f);
-    EXPECT_EQ(cat.occlusion.channel, 0);
-    EXPECT_EQ(cat.occlusion_strength, 0.75f);
-    EXPECT_EQ(cat.occlusion.image, cat.metallic_image.image) << "one image, one upload";
-    EXPECT_EQ(*cat.normal_image.encoded, "others");
-    EXPECT_EQ(cat.normal_scale, 2.0f);
-    EXPECT_EQ(cat.emitted_colour, glm::vec3(0, 5, 0));
+    EXPECT_EQ(cat.base_color, glm::vec4(1, 0.5F, 0.25F, 1));
+    EXPECT_EQ(cat.base_color_texture.image.file.filename(), "colour 1.png");
+    EXPECT_EQ(*cat.metallic_texture.image.encoded, "encoded bytes");
+    EXPECT_EQ(cat.metallic_texture.channel, 2);
+    EXPECT_EQ(cat.metallic, 0.5F);
+    EXPECT_EQ(cat.roughness_texture.channel, 1);
+    EXPECT_EQ(cat.roughness, 0.25F);
+    EXPECT_EQ(cat.occlusion_texture.channel, 0);
+    EXPECT_EQ(cat.occlusion_strength, 0.75F);
+    EXPECT_EQ(cat.occlusion_texture.image, cat.metallic_texture.image) << "one image, one upload";
+    EXPECT_EQ(*cat.normal_texture.image.encoded, "others");
+    EXPECT_EQ(cat.normal_scale, 2.0F);
+    EXPECT_EQ(cat.emitted_color, glm::vec3(0, 5, 0));
     EXPECT_TRUE(cat.double_sided);
 }
 

@@ -26,7 +26,7 @@ Image floatImage(int width, int height, int channels) {
     image.channels = channels;
     std::vector<float> samples(static_cast<std::size_t>(width * height * channels));
     for (std::size_t i = 0; i < samples.size(); ++i)
-        samples[i] = std::exp2(float(i % 23) - 11.0f);
+        samples[i] = std::exp2(float(i % 23) - 11.0F);
     image.pixels = samples;
     return image;
 }
@@ -36,7 +36,7 @@ Image byteImage(int width, int height, int channels) {
     image.width = width;
     image.height = height;
     image.channels = channels;
-    image.colour_space = ColourSpace::srgb;
+    image.color_space = ColorSpace::srgb;
     std::vector<std::uint8_t> samples(static_cast<std::size_t>(width * height * channels));
     for (std::size_t i = 0; i < samples.size(); ++i)
         samples[i] = static_cast<std::uint8_t>(i * 37);
@@ -60,7 +60,7 @@ TEST(Image, APngReturnsItsPixelsExactlyForEveryNumberOfChannels) {
         EXPECT_EQ(back.width, 7);
         EXPECT_EQ(back.height, 5);
         EXPECT_EQ(back.channels, channels);
-        EXPECT_EQ(back.colour_space, ColourSpace::srgb);
+        EXPECT_EQ(back.color_space, ColorSpace::srgb);
         EXPECT_EQ(bytes(back), bytes(image));
     }
 }
@@ -76,9 +76,9 @@ TEST(Image, AlphaDoesNotTouchTheColourBesideIt) {
 TEST(Image, ASixteenBitPngIsReadAsFloatsOfZeroToOne) {
     const TemporaryFolder folder;
     const Image image = loadImage(folder.write("a.png", png(3, 1, 16, 0, "\0\0\0\x33\x33\xff\xff"s)));
-    EXPECT_EQ(image.colour_space, ColourSpace::srgb);
+    EXPECT_EQ(image.color_space, ColorSpace::srgb);
     EXPECT_EQ(image.channels, 1);
-    EXPECT_EQ(floats(image), (std::vector<float>{0.0f, 0.2f, 1.0f}));
+    EXPECT_EQ(floats(image), (std::vector<float>{0.0F, 0.2F, 1.0F}));
 }
 
 TEST(Image, PalettesAndFewBitsAreExpandedToEight) {
@@ -102,12 +102,12 @@ TEST(Image, AFullFloatExrReturnsItsPixelsExactlyWithInfinityAndNan) {
     const TemporaryFolder folder;
     Image image = floatImage(9, 4, 3);
     auto& samples = std::get<std::vector<float>>(image.pixels);
-    samples[0] = -3.5f;
+    samples[0] = -3.5F;
     samples[1] = std::numeric_limits<float>::infinity();
     samples[2] = std::numeric_limits<float>::quiet_NaN();
     saveImage(folder.path() / "a.exr", image);
     const Image back = loadImage(folder.path() / "a.exr");
-    EXPECT_EQ(back.colour_space, ColourSpace::linear);
+    EXPECT_EQ(back.color_space, ColorSpace::linear);
     EXPECT_TRUE(std::isnan(floats(back)[2]));
     for (std::size_t i = 0; i < samples.size(); ++i)
         EXPECT_TRUE(i == 2 || floats(back)[i] == samples[i]) << i;
@@ -126,11 +126,11 @@ TEST(Image, AHalfExrIsWithinAHalfFloatsPrecision) {
     const TemporaryFolder folder;
     Image image = floatImage(4, 4, 3);
     for (float& sample : std::get<std::vector<float>>(image.pixels))
-        sample *= 1.2345f;
+        sample *= 1.2345F;
     saveImage(folder.path() / "a.exr", image, false);
     const Image back = loadImage(folder.path() / "a.exr");
     for (std::size_t i = 0; i < floats(image).size(); ++i)
-        EXPECT_NEAR(floats(back)[i] / floats(image)[i], 1.0f, 0x1p-11f);
+        EXPECT_NEAR(floats(back)[i] / floats(image)[i], 1.0F, 0x1p-11f);
 }
 
 TEST(Image, AnHdrKeepsEachPixelsLargestChannelToOneIn256) {
@@ -139,12 +139,12 @@ TEST(Image, AnHdrKeepsEachPixelsLargestChannelToOneIn256) {
         const Image image = floatImage(width, 6, 3);
         saveImage(folder.path() / "a.hdr", image);
         const Image back = loadImage(folder.path() / "a.hdr");
-        EXPECT_EQ(back.colour_space, ColourSpace::linear);
+        EXPECT_EQ(back.color_space, ColorSpace::linear);
         ASSERT_EQ(floats(back).size(), floats(image).size());
         for (std::size_t i = 0; i < floats(image).size(); i += 3) {
             const float largest = std::max({floats(image)[i], floats(image)[i + 1], floats(image)[i + 2]});
             for (std::size_t k = 0; k < 3; ++k)
-                EXPECT_NEAR(floats(back)[i + k], floats(image)[i + k], largest / 128.0f);
+                EXPECT_NEAR(floats(back)[i + k], floats(image)[i + k], largest / 128.0F);
         }
     }
 }
@@ -156,7 +156,7 @@ TEST(Image, AFlatHdrByHandHasTheValuesOfItsSharedExponents) {
     const Image image = loadImage(path);
     EXPECT_EQ(image.width, 2);
     EXPECT_EQ(image.channels, 3);
-    EXPECT_EQ(floats(image), (std::vector<float>{1.0f, 0.5f, 0.25f, 1024.0f, 1024.0f, 1024.0f}));
+    EXPECT_EQ(floats(image), (std::vector<float>{1.0F, 0.5F, 0.25F, 1024.0F, 1024.0F, 1024.0F}));
 }
 
 TEST(Image, ARunLengthHdrByHandUnpacksItsRunsAndItsLiterals) {
@@ -169,9 +169,9 @@ TEST(Image, ARunLengthHdrByHandUnpacksItsRunsAndItsLiterals) {
         loadImage(folder.write("a.hdr", "#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 8\n"s + row));
     ASSERT_EQ(floats(image).size(), 24u);
     for (std::size_t x = 0; x < 8; ++x) {
-        EXPECT_EQ(floats(image)[x * 3], 1.0f);
-        EXPECT_EQ(floats(image)[x * 3 + 1], float(x) * 0.25f);
-        EXPECT_EQ(floats(image)[x * 3 + 2], x < 4 ? 0.0f : 1.0f);
+        EXPECT_EQ(floats(image)[x * 3], 1.0F);
+        EXPECT_EQ(floats(image)[x * 3 + 1], float(x) * 0.25F);
+        EXPECT_EQ(floats(image)[x * 3 + 2], x < 4 ? 0.0F : 1.0F);
     }
 }
 
@@ -179,8 +179,8 @@ TEST(Image, RowZeroIsTheTop) {
     const TemporaryFolder folder;
     const auto path = folder.write("a.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 1\n"s +
                                                 "\x80\x80\x80\x81"s + "\x80\x80\x80\x82"s);
-    EXPECT_EQ(floats(loadImage(path))[0], 1.0f);
-    EXPECT_EQ(floats(loadImage(path))[3], 2.0f);
+    EXPECT_EQ(floats(loadImage(path))[0], 1.0F);
+    EXPECT_EQ(floats(loadImage(path))[3], 2.0F);
 }
 
 TEST(Image, TheReaderIsChosenByTheContentAndNotByTheName) {
@@ -217,7 +217,7 @@ TEST(Image, ASaveThatFailsLeavesTheOldFileAndNothingElse) {
     const TemporaryFolder folder;
     const auto path = folder.write("a.hdr", "old");
     Image image = floatImage(3, 3, 3);
-    std::get<std::vector<float>>(image.pixels)[4] = -1.0f;
+    std::get<std::vector<float>>(image.pixels)[4] = -1.0F;
     expectError(path, {"negative", ".exr"}, [&] { saveImage(path, image); });
     EXPECT_EQ(bytesOf(path), "old");
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);

@@ -18,7 +18,7 @@ constexpr const char* square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 // Twice the signed area of all triangles seen from +z: tells lost, doubled and turned faces.
 float doubleArea(const MeshData& mesh) {
-    float area = 0.0f;
+    float area = 0.0F;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         const glm::vec3 a = mesh.positions[mesh.indices[i]];
         const glm::vec3 b = mesh.positions[mesh.indices[i + 1]];
@@ -63,7 +63,7 @@ TEST(Obj, LinesMayEndInCrlfOrCrAndHaveCommentsBlanksAndUnknownKeywords) {
                                  "o thing", "s off", "vp 0.1", "g a b", "f 1 2  3 "})
             text += line + end;
         const MeshData mesh = loadMesh(folder.write("a.obj", text));
-        EXPECT_FLOAT_EQ(doubleArea(mesh), 1.0f);
+        EXPECT_FLOAT_EQ(doubleArea(mesh), 1.0F);
     }
 }
 
@@ -71,12 +71,12 @@ TEST(Obj, AQuadIsCutAlongItsShorterDiagonal) {
     const TemporaryFolder folder;
     const MeshData mesh = loadMesh(folder.write("a.obj", "v 0 0 0\nv 3 1 0\nv 0 2 0\nv -3 1 0\nf 1 2 3 4\n"));
     EXPECT_EQ(mesh.indices.size(), 6u);
-    EXPECT_FLOAT_EQ(doubleArea(mesh), 12.0f);
+    EXPECT_FLOAT_EQ(doubleArea(mesh), 12.0F);
     std::set<std::uint32_t> ends; // both triangles touch the ends of the cut
     for (std::uint32_t vertex = 0; vertex < 4; ++vertex)
         if (std::count(mesh.indices.begin(), mesh.indices.end(), vertex) == 2) ends.insert(vertex);
     for (const std::uint32_t end : ends)
-        EXPECT_EQ(mesh.positions[end].x, 0.0f);
+        EXPECT_EQ(mesh.positions[end].x, 0.0F);
 }
 
 TEST(Obj, ConcavePolygonsKeepTheirAreaWhereverTheyLieAndHoweverSmall) {
@@ -84,12 +84,12 @@ TEST(Obj, ConcavePolygonsKeepTheirAreaWhereverTheyLieAndHoweverSmall) {
     // An L of area 3 with seven corners, one of them on a straight edge; an arrow head of area 1; and two
     // long arms of area 44.5, whose shortest cut would run past the notch at (0.5, 0.5).
     const std::vector<std::pair<std::vector<glm::vec2>, float>> shapes = {
-        {{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}, {0, 1}}, 3.0f},
-        {{{0, 0}, {1, 2}, {0, 1}, {-1, 2}}, 1.0f},
-        {{{0, 0}, {2, 0}, {30, 0}, {30, 1}, {0.5f, 0.5f}, {1, 30}, {0, 30}, {0, 2}}, 44.5f}};
+        {{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}, {0, 1}}, 3.0F},
+        {{{0, 0}, {1, 2}, {0, 1}, {-1, 2}}, 1.0F},
+        {{{0, 0}, {2, 0}, {30, 0}, {30, 1}, {0.5F, 0.5F}, {1, 30}, {0, 30}, {0, 2}}, 44.5F}};
     for (const auto& [corners, area] : shapes) {
         for (const glm::vec2 offset : {glm::vec2(0, 0), glm::vec2(10, -7), glm::vec2(-3, 5)}) {
-            for (const float scale : {1.0f, 1e-4f}) {
+            for (const float scale : {1.0F, 1e-4f}) {
                 std::string text;
                 std::string face = "f";
                 for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -100,12 +100,12 @@ TEST(Obj, ConcavePolygonsKeepTheirAreaWhereverTheyLieAndHoweverSmall) {
                 }
                 const MeshData mesh = loadMesh(folder.write("a.obj", text + face + "\n"));
                 EXPECT_EQ(mesh.indices.size(), (corners.size() - 2) * 3);
-                EXPECT_NEAR(doubleArea(mesh) / (scale * scale), 2.0f * area, 0.02f);
+                EXPECT_NEAR(doubleArea(mesh) / (scale * scale), 2.0F * area, 0.02F);
                 for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
                     const glm::vec3 a = mesh.positions[mesh.indices[i]];
                     const glm::vec3 normal = glm::cross(mesh.positions[mesh.indices[i + 1]] - a,
                                                         mesh.positions[mesh.indices[i + 2]] - a);
-                    EXPECT_GE(normal.z, 0.0f) << "no triangle is turned over";
+                    EXPECT_GE(normal.z, 0.0F) << "no triangle is turned over";
                 }
             }
         }
@@ -122,7 +122,7 @@ TEST(Obj, APolygonOf255CornersIsRead) {
         text.append(std::to_string(std::sin(angle_rad))).append(" 0\n");
         face.append(" ").append(std::to_string(i + 1));
     }
-    EXPECT_NEAR(doubleArea(loadMesh(folder.write("a.obj", text + face))), 2.0f * 3.1413f, 1e-3f);
+    EXPECT_NEAR(doubleArea(loadMesh(folder.write("a.obj", text + face))), 2.0F * 3.1413F, 1e-3f);
 }
 
 TEST(Obj, MissingNormalsAreSmoothAndDoNotDependOnTheDiagonals) {
@@ -134,12 +134,12 @@ TEST(Obj, MissingNormalsAreSmoothAndDoNotDependOnTheDiagonals) {
         const MeshData mesh = loadMesh(folder.write(
             "a.obj", std::string("v 3 2 1\nv 0 2 1\nv 0 0 1\nv 3 0 1\nv 3 0 0\nv 3 2 0\nv 0 2 0\n") + faces));
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-            EXPECT_NEAR(glm::length(mesh.normals[i]), 1.0f, 1e-6f);
+            EXPECT_NEAR(glm::length(mesh.normals[i]), 1.0F, 1e-6f);
             if (mesh.positions[i] == glm::vec3(3, 2, 1)) {
-                EXPECT_NEAR(glm::distance(mesh.normals[i], glm::vec3(std::sqrt(1.0f / 3.0f))), 0.0f, 1e-6f);
+                EXPECT_NEAR(glm::distance(mesh.normals[i], glm::vec3(std::sqrt(1.0F / 3.0F))), 0.0F, 1e-6f);
             }
         }
-        EXPECT_EQ(mesh.uvs, std::vector<glm::vec2>(7, glm::vec2(0.0f)));
+        EXPECT_EQ(mesh.uvs, std::vector<glm::vec2>(7, glm::vec2(0.0F)));
     }
 }
 
@@ -154,7 +154,7 @@ TEST(Obj, FacesWithoutAreaStillHaveUnitNormals) {
     const TemporaryFolder folder;
     const MeshData mesh = loadMesh(folder.write("a.obj", "v 1 1 1\nf 1 1 1\n"));
     for (const glm::vec3& normal : mesh.normals)
-        EXPECT_EQ(glm::length(normal), 1.0f);
+        EXPECT_EQ(glm::length(normal), 1.0F);
 }
 
 TEST(Obj, CornersThatAgreeInAllIndicesShareAVertex) {
@@ -206,30 +206,32 @@ TEST(Mtl, NamesImagesChannelsAndFactors) {
     ASSERT_EQ(materials.size(), 1u);
     const MaterialData& stone = materials[0];
     EXPECT_EQ(stone.name, "stone");
-    EXPECT_EQ(stone.base_colour, glm::vec4(0.5f, 0.25f, 1.0f, 1.0f));
-    EXPECT_EQ(stone.base_colour_image.file.filename(), "colour.jpg");
-    EXPECT_EQ(stone.occlusion.channel, 0);
-    EXPECT_EQ(stone.roughness_image.channel, 1);
-    EXPECT_EQ(stone.roughness, 0.75f);
-    EXPECT_EQ(stone.metallic_image.channel, 2);
-    EXPECT_EQ(stone.metallic, 1.0f) << "a map without a factor counts in full";
-    EXPECT_EQ(stone.occlusion.image, stone.roughness_image.image) << "one file, one upload";
-    EXPECT_EQ(stone.occlusion.image.file.filename(), "packed one.jpg");
-    EXPECT_EQ(stone.normal_image.file.filename(), "normal.png") << "norm goes before map_Bump";
+    EXPECT_EQ(stone.base_color, glm::vec4(0.5F, 0.25F, 1.0F, 1.0F));
+    EXPECT_EQ(stone.base_color_texture.image.file.filename(), "colour.jpg");
+    EXPECT_EQ(stone.occlusion_texture.channel, 0);
+    EXPECT_EQ(stone.roughness_texture.channel, 1);
+    EXPECT_EQ(stone.roughness, 0.75F);
+    EXPECT_EQ(stone.metallic_texture.channel, 2);
+    EXPECT_EQ(stone.metallic, 1.0F) << "a map without a factor counts in full";
+    EXPECT_EQ(stone.occlusion_texture.image, stone.roughness_texture.image) << "one file, one upload";
+    EXPECT_EQ(stone.occlusion_texture.image.file.filename(), "packed one.jpg");
+    EXPECT_EQ(stone.normal_texture.image.file.filename(), "normal.png") << "norm goes before map_Bump";
 }
 
 TEST(Mtl, WithoutMapsASurfaceIsRoughAndNoMetal) {
     const TemporaryFolder folder;
     const MaterialData plain = loadMtl(folder.write("a.mtl", "newmtl a\nKd 0.5\n")).at(0);
-    EXPECT_EQ(plain.base_colour, glm::vec4(0.5f, 0.5f, 0.5f, 1.0f));
-    EXPECT_EQ(plain.roughness, 1.0f);
-    EXPECT_EQ(plain.metallic, 0.0f);
-    EXPECT_TRUE(plain.base_colour_image.empty());
+    EXPECT_EQ(plain.base_color, glm::vec4(0.5F, 0.5F, 0.5F, 1.0F));
+    EXPECT_EQ(plain.roughness, 1.0F);
+    EXPECT_EQ(plain.metallic, 0.0F);
+    EXPECT_TRUE(plain.base_color_texture.image.empty());
 }
 
 TEST(Mtl, MapBumpServesAsTheNormalMapWhereThereIsNoNorm) {
     const TemporaryFolder folder;
     folder.write("n.png", image());
-    EXPECT_EQ(loadMtl(folder.write("a.mtl", "newmtl a\nmap_Bump n.png\n")).at(0).normal_image.file.filename(),
+    EXPECT_EQ(loadMtl(folder.write("a.mtl", "newmtl a\nmap_Bump n.png\n"))
+                  .at(0)
+                  .normal_texture.image.file.filename(),
               "n.png");
 }
