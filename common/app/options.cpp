@@ -265,6 +265,7 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
 
     Options options;
     bool headless = false;
+    bool or_picture = false;
     std::string context;
     std::string size;
     std::string frame;
@@ -278,6 +279,8 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
     app.add_option("--context", context, "who provides OpenGL: window, osmesa or egl")
         ->check(CLI::IsMember({"window", "osmesa", "egl"}))
         ->type_name("KIND");
+    app.add_flag("--or-picture", or_picture,
+                 "where no window can be opened, render " + info.name + ".png instead, and say so");
     app.add_option("--size", size, "pixels of the frame, 640x480 unless given")->type_name("WxH");
     app.add_option("--frame", frame, "which frame, at N/60 s; the first is 1, the default 60")
         ->type_name("N");
@@ -375,6 +378,10 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
     if (options.context != ContextKind::window && options.request.out.empty() && !options.request.cost &&
         !options.request.readings && !options.budget && batch.empty())
         options.request.out = info.name + (frames.empty() ? ".png" : "_%04d.png");
+    if (options.context == ContextKind::window && context.empty() && or_picture) {
+        options.or_picture = options.request;
+        options.or_picture->out = info.name + ".png";
+    }
     if (options.context == ContextKind::window && frame.empty())
         options.request.first_frame = options.request.last_frame = 1; // a window begins at the beginning
     checkRequest(options.request);

@@ -62,7 +62,8 @@ struct Options {
     FrameRequest request;
     std::vector<FrameRequest> batch; // in place of request, where --batch was given
     bool is_batch = false;
-    std::optional<Budget> budget; // for the request; no batch then
+    std::optional<Budget> budget;           // for the request; no batch then
+    std::optional<FrameRequest> or_picture; // in place of the window, where none can be opened
     bool list_settings = false;
     bool json = false;
     RungFiles files;

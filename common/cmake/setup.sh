@@ -1,4 +1,5 @@
-# What tutorials/run, tests/run, tests/bless and .ci/run share: installing what is missing, configuring, building.
+# What tutorials/run, tests/run, tests/bless, tests/fresh and .ci/run share: installing what is missing, configuring,
+# building.
 # Sourced by bash, never run. Messages go to stderr, so that a rung's own output can be piped on.
 
 set -euo pipefail
@@ -17,6 +18,7 @@ libglfw3-dev            GLFW: windows
 libimgui-dev            Dear ImGui: the settings panel
 libglm-dev              GLM: vectors and matrices
 libegl-dev              EGL: rendering without a window
+libopengl-dev           OpenGL's library, which CMake asks for beside EGL's
 libosmesa6              OSMesa: rendering without a window, in software
 libgl1                  OpenGL itself, for the window
 libegl1                 EGL itself
@@ -68,39 +70,63 @@ requirePackages() {
 }
 
 installPackages() {
-    local list=$1 missing=$2 as_root=()
-    say "These packages are missing and will be installed with apt-get:"
-    while read -r name purpose; do
-        if [ -n "$name" ] && grep -qxF -- "$name" <<<"$missing"; then say "  $(printf '%-22s' "$name") $purpose"; fi
-    done <<<"$list"
+    local list=$1 missing=$2 as_root=() log reason=
+    # One line, so that it can be copied from it.
+    missing=$(tr '\n' ' ' <<<"$missing")
+    missing=${missing% }
     if [ "$(id -u)" != 0 ]; then
-        [ -n "$(type -P sudo)" ] || fail "installing needs root and there is no sudo; run: apt-get install" $missing
+        [ -n "$(type -P sudo)" ] || fail "packages are missing, and only root can install them (there is no sudo)." \
+            "As root, run: apt-get install --no-install-recommends $missing"
         as_root=(sudo)
     fi
-    local install=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends)
-    local update=("${as_root[@]}" apt-get update)
+    say "These packages are missing and will be installed with apt-get:"
+    while read -r name purpose; do
+        if [[ -n $name && " $missing " = *" $name "* ]]; then say "  $(printf '%-22s' "$name") $purpose"; fi
+    done <<<"$list"
+    local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive LC_ALL=C apt-get)
+    local update=("${apt[@]}" -o APT::Update::Error-Mode=any update)
+    # shellcheck disable=SC2206
+    local install=("${apt[@]}" install -y --no-install-recommends $missing)
+    log=$(mktemp)
     # A fresh container has no package lists at all; old ones may name versions that are gone.
-    if ! compgen -G '/var/lib/apt/lists/*Packages*' >/dev/null; then "${update[@]}" >&2; fi
-    # shellcheck disable=SC2086
-    "${install[@]}" $missing >&2 || { "${update[@]}" && "${install[@]}" $missing; } >&2 ||
-        fail "apt-get could not install them all; the reason stands above"
+    if ! compgen -G '/var/lib/apt/lists/*Packages*' >/dev/null; then "${update[@]}" 2>&1 | tee -a "$log" >&2 || true; fi
+    "${install[@]}" 2>&1 | tee -a "$log" >&2 ||
+        { { "${update[@]}" || true; } && "${install[@]}"; } 2>&1 | tee -a "$log" >&2 || reason="what apt-get said stands above"
+    if [ -n "$reason" ] && grep -qE 'Temporary failure resolving|Could not (resolve|connect)|Cannot initiate the connection' "$log"; then
+        reason="the package servers cannot be reached from here; connect to the network and try again"
+    fi
+    rm -f "$log"
+    [ -z "$reason" ] || fail "these packages could not be installed: $missing: $reason"
 }
 
-# buildTargets PRESET TARGET...: configures build/PRESET where that was never done, then brings targets up to date.
-# Says nothing when there is nothing to do.
-buildTargets() {
-    local preset=$1 log
-    shift
-    if [ ! -e "$build_dir/build.ninja" ]; then
-        local options=()
-        # Continuous integration also refuses warnings; a newer compiler's must not stop anybody else.
-        if [ -n "${CI:-}" ]; then options=(-DGLLADDER_WERROR=ON); fi
-        say "Configuring build/$preset"
-        log=$(cd "$root" && cmake --preset "$preset" "${options[@]}" 2>&1) || {
-            say "$log"
-            fail "configuring build/$preset failed; the reason stands above"
-        }
+# configure PRESET TESTS: configures build/PRESET where that was never done, with the tests where TESTS is ON. A tree
+# that lacks them gets them when they are first asked for, and keeps them: it serves whoever needs none as well.
+configure() {
+    local preset=$1 tests=$2 options log had=
+    if [ -e "$build_dir/build.ninja" ]; then
+        had=$(sed -n 's/^GLLADDER_TESTS:[A-Z]*=//p' "$build_dir/CMakeCache.txt")
+        if [ "$tests" = OFF ] || [ "$had" = ON ]; then return; fi
     fi
+    mkdir -p "$build_dir" 2>/dev/null && [ -w "$build_dir" ] ||
+        fail "$build_dir cannot be written; copy the project to a folder of your own and run it there"
+    options=("-DGLLADDER_TESTS=$tests")
+    # Continuous integration also refuses warnings; a newer compiler's must not stop anybody else.
+    if [ -n "${CI:-}" ]; then options+=(-DGLLADDER_WERROR=ON); fi
+    say "Configuring build/$preset"
+    log=$(cd "$root" && cmake --preset "$preset" "${options[@]}" 2>&1) || {
+        say "$log"
+        # What a rung needs is there all the same, and the next tutorials/run must not stumble over the tests.
+        if [ -n "$had" ]; then (cd "$root" && cmake --preset "$preset" "-DGLLADDER_TESTS=$had") >/dev/null 2>&1 || true; fi
+        fail "configuring build/$preset failed; the reason stands above"
+    }
+}
+
+# buildTargets PRESET TESTS TARGET...: configures as above, then brings targets up to date. Says nothing when there is
+# nothing to do.
+buildTargets() {
+    local preset=$1 tests=$2
+    shift 2
+    configure "$preset" "$tests"
     if ninja -C "$build_dir" -n "$@" 2>/dev/null | grep -q 'no work to do'; then return; fi
     say "Building build/$preset"
     ninja -C "$build_dir" "$@" >&2 || fail "the build failed; the reason stands above"
@@ -115,9 +141,33 @@ rungSummaries() {
     done
 }
 
-requireRung() {
-    [ -e "$root/tutorials/$1/main.cpp" ] && return
-    say "$me: error: there is no rung \"$1\"; the rungs are"
-    rungSummaries >&2
-    exit 2
+# findRung WORD: sets $rung to the only one that WORD fits: its whole name, its number (05, 5), its words (hdr_bloom), or
+# any part of its name. The first of these that fits any decides.
+findRung() {
+    local word=${1%/} number=none quoted pattern name fits
+    word=${word##*/} # tutorials/05_hdr_bloom/, as a shell completes it
+    if [[ $word =~ ^[0-9]{1,2}$ ]]; then number=$(printf '%02d' "$((10#$word))"); fi
+    quoted=$(printf '%q' "$word")
+    for pattern in "$quoted" "${number}_*" "[0-9][0-9]_$quoted" "*$quoted*"; do
+        fits=()
+        for name in "$root"/tutorials/[0-9][0-9]_*/main.cpp; do
+            name=$(basename "$(dirname "$name")")
+            # shellcheck disable=SC2053
+            if [[ $name = $pattern ]]; then fits+=("$name"); fi
+        done
+        if [ ${#fits[@]} -gt 0 ]; then break; fi
+    done
+    case ${#fits[@]} in
+    1) rung=${fits[0]} ;;
+    0)
+        say "$me: error: there is no rung \"$1\"; the rungs are"
+        rungSummaries >&2
+        exit 2
+        ;;
+    *)
+        say "$me: error: \"$1\" fits several rungs; write more of the name"
+        rungSummaries | grep -E "^  ($(IFS='|' && echo "${fits[*]}")) " >&2
+        exit 2
+        ;;
+    esac
 }

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
+#include <new>
 
 namespace gll {
 namespace {
@@ -25,6 +27,26 @@ bool measures(const Options& options) {
                        [](const FrameRequest& request) { return request.cost; });
 }
 
+// The picture that was asked for in place of a window, and why it is one.
+int renderInstead(Options options, const NoWindow& error, const RungInfo& info, Settings& settings) {
+    options.context = ContextKind::headless;
+    options.request = *options.or_picture;
+    const int exit_code = runHeadless(options, info, settings);
+    if (exit_code == 0)
+        std::fprintf(stderr, "%s: no window can be opened here (%s); the picture is %s\n", info.name.c_str(),
+                     error.reason.c_str(), std::filesystem::absolute(options.request.out).c_str());
+    return exit_code;
+}
+
+int showWindow(const Options& options, const RungInfo& info, Settings& settings) {
+    try {
+        return runWindow(options, info, settings);
+    } catch (const NoWindow& error) {
+        if (!options.or_picture) throw;
+        return renderInstead(options, error, info, settings);
+    }
+}
+
 } // namespace
 
 int runRung(int argc, char** argv, const RungInfo& info, Settings& settings) {
@@ -32,7 +54,7 @@ int runRung(int argc, char** argv, const RungInfo& info, Settings& settings) {
         const std::optional<Options> options = parseOptions(argc, argv, info, settings);
         if (!options) return 0;
         if (options->list_settings) return listSettings(*options, info, settings);
-        if (options->context == ContextKind::window) return runWindow(*options, info, settings);
+        if (options->context == ContextKind::window) return showWindow(*options, info, settings);
         if (measures(*options)) prepareCost(options->counter, argv);
         return runHeadless(*options, info, settings);
     } catch (const UsageError& error) {

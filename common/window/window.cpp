@@ -29,14 +29,9 @@ std::string glfwReason() {
     return text == nullptr ? "no reason given" : text;
 }
 
-std::runtime_error noWindow() {
-    return std::runtime_error("no window can be opened here (" + glfwReason() +
-                              "); run with --headless to render to a file instead");
-}
-
 struct GlfwLibrary {
     GlfwLibrary() {
-        if (glfwInit() != GLFW_TRUE) throw noWindow();
+        if (glfwInit() != GLFW_TRUE) throw NoWindow(glfwReason());
     }
     ~GlfwLibrary() { glfwTerminate(); }
     GlfwLibrary(const GlfwLibrary&) = delete;
@@ -51,7 +46,7 @@ class WindowContext final : public Context {
         glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
         glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
         window_ = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
-        if (window_ == nullptr) throw noWindow();
+        if (window_ == nullptr) throw NoWindow(glfwReason());
         glfwMakeContextCurrent(window_);
         glfwSwapInterval(1);
         try {

@@ -1,6 +1,10 @@
 // Wrong options, settings, sizes, frames and targets: refused with exit code 2 before anything is rendered.
 #include "hostile/hostile.hpp"
 
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
 namespace gll::test {
 namespace {
 
@@ -100,6 +104,78 @@ TEST(CommandLineWindow, withoutADisplayNamesHeadless) {
             if (*display != '\0') command.environment["DISPLAY"] = display;
             expectRefusal(run(command), 1, {"--headless"});
         }
+        EXPECT_EQ(folder.listing(), std::vector<std::string>());
+    }
+}
+
+std::string contents(const std::filesystem::path& path) {
+    std::ifstream stream(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+// tutorials/run starts every rung with --or-picture: which command lines need a window is the program's to
+// know.
+TEST(CommandLineOrPicture, rendersTheHeadlessFrameWhereNoWindowCanBeOpened) {
+    const TemporaryFolder folder;
+    const std::string name = rungProgram().filename().string();
+    for (const char* display : {"", ":4711"}) {
+        Command command = rungCommand(folder, {"--or-picture", "--size", "40x30"});
+        if (*display != '\0') command.environment["DISPLAY"] = display;
+        const Result result = run(command);
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+        const std::filesystem::path picture = folder.path() / (name + ".png");
+        EXPECT_NE(result.err.find("the picture is " + picture.string()), std::string::npos) << result.err;
+        EXPECT_EQ(folder.listing(), std::vector<std::string>{name + ".png"});
+        runToSuccess(rungCommand(folder, {"--headless", "--size", "40x30", "--out", "headless.png"}));
+        EXPECT_EQ(contents(picture), contents(folder.path() / "headless.png"));
+        std::filesystem::remove(picture);
+        std::filesystem::remove(folder.path() / "headless.png");
+    }
+}
+
+TEST(CommandLineOrPicture, leavesNoPictureWhereNoWindowWasAskedFor) {
+    const std::vector<std::vector<std::string>> lines{
+        {"--help"},
+        {"--version"},
+        {"--settings"},
+        {"--settings", "--json"},
+        {"--cost", "--counter", "cpu", "--size", "8x8"},
+        {"--budget", "flip=1", "--counter", "cpu", "--size", "8x8"}};
+    for (std::vector<std::string> line : lines) {
+        const TemporaryFolder folder;
+        line.emplace_back("--or-picture");
+        const Result result = run(rungCommand(folder, line));
+        EXPECT_EQ(result.exit_code, 0) << line[0] << ": " << result.err;
+        EXPECT_EQ(result.err, "") << line[0];
+        EXPECT_EQ(folder.listing(), std::vector<std::string>()) << line[0];
+    }
+}
+
+TEST(CommandLineOrPicture, namesNoFileThatOtherOptionsName) {
+    const TemporaryFolder folder;
+    for (const std::vector<std::string>& line :
+         std::vector<std::vector<std::string>>{{"--out", "a.png"},
+                                               {"--inject", "scene:4,4:nan", "--out", "b.png"},
+                                               {"--target", "hdr", "--out", "c.exr"},
+                                               {"--frames", "1..1", "--out", "d.png"}}) {
+        std::vector<std::string> all{"--or-picture", "--size", "8x8"};
+        all.insert(all.end(), line.begin(), line.end());
+        runToSuccess(rungCommand(folder, all));
+    }
+    EXPECT_EQ(folder.listing(), (std::vector<std::string>{"a.png", "b.png", "c.exr", "d.png"}));
+}
+
+TEST(CommandLineOrPicture, excusesNoMistake) {
+    for (const auto& [line, exit_code] :
+         std::vector<std::pair<std::vector<std::string>, int>>{{{"--context", "window"}, 1},
+                                                               {{"--readings"}, 2},
+                                                               {{"--set", "intensty=1"}, 2},
+                                                               {{"--siez", "8x8"}, 2}}) {
+        const TemporaryFolder folder;
+        std::vector<std::string> all = line;
+        all.emplace_back("--or-picture");
+        expectRefusal(run(rungCommand(folder, all)), exit_code, {});
         EXPECT_EQ(folder.listing(), std::vector<std::string>());
     }
 }
