@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace bake {
 namespace {

@@ -6,6 +6,7 @@
 #include <dlfcn.h>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 namespace gll {
 namespace {

@@ -3,6 +3,10 @@
 
 #include "io/image.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <type_traits>
+
 namespace gll {
 namespace {
 

@@ -4,6 +4,7 @@
 #include "app/usage_error.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <stdexcept>

@@ -1,6 +1,7 @@
 // Mesh buffers and drawing.
 #include "gl/mesh.hpp"
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 

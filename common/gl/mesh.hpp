@@ -3,6 +3,7 @@
 
 #include "gl/handle.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>

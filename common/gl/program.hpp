@@ -5,6 +5,7 @@
 #include "gl/handle.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>

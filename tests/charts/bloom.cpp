@@ -8,9 +8,12 @@
 #include "measure/flip.hpp"
 #include "truth/convolution.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <random>
+#include <stdexcept>
 
 namespace gll::charts {
 namespace {

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <sstream>
 #include <unistd.h>
+#include <utility>
 
 namespace gll::charts {
 

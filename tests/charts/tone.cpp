@@ -9,6 +9,7 @@
 #include "truth/tone_reference.hpp"
 
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 

@@ -13,6 +13,8 @@
 #include <ctime>
 #include <fstream>
 #include <set>
+#include <stdexcept>
+#include <utility>
 
 namespace {
 using namespace gll;

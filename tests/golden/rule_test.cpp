@@ -1,7 +1,9 @@
 // The rule that golden frames are held to, at its boundaries: a comparison that cannot fail checks nothing.
 #include "support/comparison.hpp"
 
+#include <cstdio>
 #include <gtest/gtest.h>
+#include <utility>
 
 namespace gll::test {
 namespace {

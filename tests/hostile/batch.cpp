@@ -2,6 +2,8 @@
 // rendered.
 #include "hostile/hostile.hpp"
 
+#include <ostream>
+
 namespace gll::test {
 namespace {
 

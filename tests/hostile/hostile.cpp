@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <ostream>
+#include <utility>
 
 namespace gll::test {
 namespace {

@@ -3,6 +3,7 @@
 #include "hostile/hostile.hpp"
 
 #include <fstream>
+#include <memory>
 #include <sstream>
 
 namespace gll::test {

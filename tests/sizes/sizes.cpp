@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <stdexcept>
 
 namespace {
 using namespace gll;

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <stdexcept>
+#include <string>
 
 namespace gll::truth {
 namespace {

@@ -9,6 +9,7 @@
 #include "tone_reference.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstring>
 #include <gtest/gtest.h>
@@ -16,6 +17,8 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <sstream>
+#include <tuple>
 
 namespace gll::truth {
 namespace {

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace gll::truth {

@@ -6,6 +6,7 @@
 #include "tone_reference.hpp"
 
 #include <cstdio>
+#include <cstdlib>
 #include <gtest/gtest.h>
 #include <map>
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
+#include <stdexcept>
+#include <utility>
 
 namespace gll::truth {
 namespace {

@@ -4,8 +4,10 @@
 #include "support/messages.hpp"
 
 #include <cmath>
+#include <functional>
 #include <gtest/gtest.h>
 #include <limits>
+#include <stdexcept>
 
 namespace gll::measure {
 namespace {

@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
+#include <stdexcept>
+#include <utility>
 
 namespace gll::measure {
 namespace {

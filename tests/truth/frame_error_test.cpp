@@ -6,8 +6,10 @@
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace gll::measure {
 namespace {

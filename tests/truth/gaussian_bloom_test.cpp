@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <numbers>

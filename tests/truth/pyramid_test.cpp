@@ -8,6 +8,7 @@
 #include "bloom_reference.hpp"
 
 #include <cstdio>
+#include <functional>
 #include <gtest/gtest.h>
 #include <limits>
 #include <map>

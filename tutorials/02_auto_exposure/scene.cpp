@@ -1,6 +1,7 @@
 // Building court and hall, and the way through them.
 #include "scene.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>

@@ -10,6 +10,7 @@
 #include "street.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <optional>
 
 namespace {

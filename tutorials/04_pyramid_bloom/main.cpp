@@ -7,6 +7,7 @@
 #include "app/scene_image.hpp"
 #include "run/run.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/trigonometric.hpp>
 #include <glm/vec4.hpp>

@@ -1,6 +1,7 @@
 // The passes of the pyramid, and the taps of its blur.
 #include "04_pyramid_bloom/pyramid_bloom.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>

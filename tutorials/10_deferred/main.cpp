@@ -6,6 +6,7 @@
 #include "run/run.hpp"
 #include "scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>

@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <limits>
+#include <string_view>
 
 using namespace gll;
 using namespace gll::test;

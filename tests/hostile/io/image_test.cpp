@@ -8,6 +8,8 @@
 #include <sys/stat.h>
 
 #include <cstdint>
+#include <string_view>
+#include <utility>
 
 using namespace gll;
 using namespace gll::test;

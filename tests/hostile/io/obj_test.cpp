@@ -4,6 +4,7 @@
 
 #include "test_files.hpp"
 
+#include <string_view>
 #include <sys/stat.h>
 
 using namespace gll;

@@ -4,6 +4,7 @@
 #include "support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
+#include <stdexcept>
 
 namespace gll::test {
 namespace {

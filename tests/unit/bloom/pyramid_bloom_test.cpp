@@ -3,6 +3,7 @@
 #include "app/resources.hpp"
 #include "gl_test.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace gll::test {

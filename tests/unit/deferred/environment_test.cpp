@@ -1,6 +1,7 @@
 // Environment light against integrals done the slow way.
 #include "10_deferred/environment.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>

@@ -1,8 +1,14 @@
 // The shaders' formulas, each drawn by itself and read back.
 #include "gl_test.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <glm/gtc/matrix_transform.hpp>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace gll::test {
 namespace {

@@ -1,9 +1,11 @@
 // Contexts: errors become exceptions, and making, using and destroying them again and again leaves nothing.
 #include "gl_test.hpp"
 
+#include <cstddef>
 #include <cstdio>
 #include <dlfcn.h>
 #include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <unistd.h>
 

@@ -6,8 +6,10 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 using namespace gll;
 using namespace gll::test;
