@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <cstdio>
 #include <fstream>
 #include <optional>
@@ -30,8 +31,20 @@ std::string glfwReason() {
     return text == nullptr ? "no reason given" : text;
 }
 
+bool isSet(const char* variable) {
+    const char* value = std::getenv(variable);
+    return value != nullptr && *value != '\0';
+}
+
 struct GlfwLibrary {
     GlfwLibrary() {
+        // Asked for a display that nothing names, Wayland's library complains on stderr where there is no
+        // XDG_RUNTIME_DIR.
+        const bool wayland = isSet("WAYLAND_DISPLAY") || isSet("WAYLAND_SOCKET");
+        if (!wayland && !isSet("DISPLAY")) throw NoWindow("neither DISPLAY nor WAYLAND_DISPLAY is set");
+#ifdef GLFW_PLATFORM // GLFW 3.4, which otherwise tries Wayland first
+        if (!wayland) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
         if (glfwInit() != GLFW_TRUE) throw NoWindow(glfwReason());
     }
     ~GlfwLibrary() { glfwTerminate(); }
