@@ -93,25 +93,6 @@ const char* counterName(CounterKind kind) {
     return names[static_cast<std::size_t>(kind)];
 }
 
-// This program again, for the same frame with the same settings and files.
-Command thisProgram(const FrameRequest& request, const RungFiles& files, const std::string& context) {
-    Command command{.program = std::filesystem::read_symlink("/proc/self/exe"),
-                    .arguments = {"--headless", "--preset", request.preset, "--size",
-                                  std::to_string(request.size.x) + "x" + std::to_string(request.size.y),
-                                  "--frame", std::to_string(request.first_frame)}};
-    const auto add = [&](const char* option, const std::string& value) {
-        if (!value.empty()) command.arguments.insert(command.arguments.end(), {option, value});
-    };
-    add("--context", context);
-    for (const std::string& set : request.sets)
-        add("--set", set);
-    add("--mesh", files.mesh);
-    add("--floor", files.floor);
-    add("--environment", files.environment);
-    add("--image", files.image);
-    return command;
-}
-
 class Search {
   public:
     Search(Renderer& renderer, const Options& options, const RungInfo& info, Settings& settings,
@@ -194,7 +175,7 @@ class Search {
         if (options_.budget->kind == Budget::Kind::ev) {
             const std::vector<Reading> readings = renderer_.readings();
             const auto found = std::find_if(readings.begin(), readings.end(), [](const Reading& reading) {
-                return reading.name == "exposure_ev";
+                return reading.name == exposure_reading;
             });
             if (found == readings.end())
                 throw UsageError("--budget ev: " + info_.name + " meters no exposure; write flip= or rmse=");
@@ -208,7 +189,7 @@ class Search {
         return seen;
     }
 
-    // How far the present settings are off in a view, in the budget's unit.
+    // How far off a view is as the settings are now, in the budget's unit.
     double error(const View& view) {
         const Seen seen = see(view.frame, view.size);
         switch (options_.budget->kind) {
@@ -236,6 +217,18 @@ class Search {
                             views_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
                 break;
             }
+        }
+        return worst;
+    }
+
+    // The largest error over all views of the settings that the search began with.
+    double presentError() {
+        for (const MeasuredDial& dial : dials_)
+            settings_.set(dial.setting, dial.present);
+        double worst = 0;
+        for (const View& view : views_) {
+            const double here = error(view);
+            worst = std::max(worst, std::isfinite(here) ? here : HUGE_VAL);
         }
         return worst;
     }
@@ -304,7 +297,9 @@ class Search {
         close(handle);
         if (!whole) throw std::runtime_error(file + ": cannot be written; make room there");
 
-        Command command = thisProgram(options_.request, options_.files, renderer_.context().kind());
+        FrameRequest request = options_.request;
+        request.out.clear(); // nothing is written twice
+        Command command = headlessCommand(request, options_.files, renderer_.context().kind());
         for (const char* word :
              {"--batch", file.c_str(), "--json", "--counter", counterName(options_.counter)})
             command.arguments.emplace_back(word);
@@ -325,8 +320,12 @@ class Search {
         for (const MeasuredDial& dial : dials_)
             for (std::size_t v = 1; v < dial.values.size(); ++v)
                 if (!dial.values[v].dropped) changes.push_back({{dial.setting, dial.values[v].text}});
+        Sets& present = changes.emplace_back();
+        for (const MeasuredDial& dial : dials_)
+            present.emplace_back(dial.setting, dial.present);
         const auto costs = passCosts(changes);
         best_passes_ = costs.at(0);
+        present_passes_ = costs.back();
         std::size_t next = 1;
         for (MeasuredDial& dial : dials_)
             for (std::size_t v = 1; v < dial.values.size(); ++v)
@@ -439,7 +438,7 @@ class Search {
 
     BudgetResult result(Picks found) {
         keepPresent(found);
-        BudgetResult result{.budget = *options_.budget, .error = error_};
+        BudgetResult result{.budget = *options_.budget, .error = error_, .present_error = presentError()};
         for (std::size_t d = 0; d < dials_.size(); ++d) {
             const MeasuredDial& dial = dials_[d];
             const std::string& best = dial.values[0].text;
@@ -465,6 +464,7 @@ class Search {
         }
         result.best_cost_cu = sumOf(best_passes_).cu;
         result.cost_cu = predictedCost(found).cu;
+        result.present_cost_cu = result.set.empty() ? result.cost_cu : sumOf(present_passes_).cu;
         result.counter = counter_;
         for (const View& view : views_)
             result.views.emplace_back(view.frame, view.size);
@@ -494,6 +494,7 @@ class Search {
     std::vector<MeasuredDial> dials_;
     std::vector<View> views_;
     PassCosts best_passes_;
+    PassCosts present_passes_;
     std::string counter_;
     double error_ = 0;
     int combinations_ = 0;
@@ -509,6 +510,7 @@ std::string number(double value) {
 struct Lines {
     std::string picked;
     std::string costs;
+    std::string before;
     std::string not_needed;
 };
 
@@ -523,6 +525,10 @@ Lines linesOf(const BudgetResult& result) {
     lines.costs = "costs: " + number(result.cost_cu) + " cu, " +
                   number(100 * result.cost_cu / result.best_cost_cu) + " % of the best setting's " +
                   number(result.best_cost_cu) + " (counted with " + result.counter + ")";
+    lines.before = "before: " + number(result.present_cost_cu) + " cu, " +
+                   number(100 * result.present_cost_cu / result.best_cost_cu) + " %; " +
+                   kindName(result.budget.kind) + " at most " + number(result.present_error) + ", " +
+                   (result.present_error > result.budget.limit ? "over" : "within") + " the budget";
     for (const std::string& name : result.not_needed)
         lines.not_needed += (lines.not_needed.empty() ? "" : ", ") + name;
     lines.not_needed =
@@ -544,7 +550,7 @@ std::optional<BudgetResult> searchBudget(Renderer& renderer, const Options& opti
 
 std::string budgetText(const BudgetResult& result) {
     const Lines lines = linesOf(result);
-    return lines.picked + "\n" + lines.costs + "\n" + lines.not_needed + "\n";
+    return lines.picked + "\n" + lines.costs + "\n" + lines.before + "\n" + lines.not_needed + "\n";
 }
 
 std::string budgetJson(const BudgetResult& result, const RungInfo& info) {
@@ -556,6 +562,8 @@ std::string budgetJson(const BudgetResult& result, const RungInfo& info) {
                                 {"error", result.error},
                                 {"cost_cu", result.cost_cu},
                                 {"best_cost_cu", result.best_cost_cu},
+                                {"present_error", result.present_error},
+                                {"present_cost_cu", result.present_cost_cu},
                                 {"counter", result.counter},
                                 {"combinations", result.combinations},
                                 {"tried", result.tried},
@@ -563,7 +571,7 @@ std::string budgetJson(const BudgetResult& result, const RungInfo& info) {
                                 {"best", nlohmann::json::object()},
                                 {"picked", nlohmann::json::object()},
                                 {"not_needed", result.not_needed},
-                                {"lines", {lines.picked, lines.costs, lines.not_needed}}};
+                                {"lines", {lines.picked, lines.costs, lines.before, lines.not_needed}}};
     for (const glm::ivec3& view : result.views)
         json["views"].push_back({{"frame", view.x}, {"size", {view.y, view.z}}});
     for (const auto& [name, value] : result.set)
@@ -577,7 +585,7 @@ std::string budgetJson(const BudgetResult& result, const RungInfo& info) {
 
 Command budgetCommand(const Budget& budget, const FrameRequest& request, const RungFiles& files,
                       const std::string& context) {
-    Command command = thisProgram(request, files, context);
+    Command command = headlessCommand(request, files, context);
     command.arguments.insert(
         command.arguments.end(),
         {"--budget", std::string(kindName(budget.kind)) + "=" + number(budget.limit), "--json"});

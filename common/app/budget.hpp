@@ -12,6 +12,9 @@
 
 namespace gll {
 
+// The reading (Rung::readings()) that budgets of exposure are about, in stops.
+constexpr const char* exposure_reading = "exposure_ev";
+
 // What a search ended with. Costs are of the frame that the request names, in copies (cu).
 struct BudgetResult {
     Budget budget;
@@ -23,6 +26,8 @@ struct BudgetResult {
     double error = 0;                         // the largest in all frames looked at, of the budget's kind
     double cost_cu = 0;
     double best_cost_cu = 0;
+    double present_error = 0; // of the settings that the search began with, likewise
+    double present_cost_cu = 0;
     std::string counter = {};           // what costs were counted with
     std::vector<glm::ivec3> views = {}; // the frames looked at: number, width, height
     int combinations = 0;               // there are
@@ -41,9 +46,10 @@ std::optional<BudgetResult> searchBudget(Renderer& renderer, const Options& opti
                                          Settings& settings, const BudgetProgress& progress,
                                          const std::function<bool()>& interrupted);
 
-// Three lines: what was picked, what it costs, what was not needed.
+// Four lines: what was picked, what it costs, what the settings before cost and how far off they are, and
+// what was not needed.
 std::string budgetText(const BudgetResult& result);
-std::string budgetJson(const BudgetResult& result, const RungInfo& info); // one line, the three among it
+std::string budgetJson(const BudgetResult& result, const RungInfo& info); // one line, the four among it
 
 // For a window, which goes on drawing meanwhile: this program run a second time to search, and what came of
 // it.
@@ -51,7 +57,7 @@ Command budgetCommand(const Budget& budget, const FrameRequest& request, const R
                       const std::string& context);
 struct BudgetAnswer {
     BudgetResult::Sets set;
-    std::string text; // the three lines, or why there are none
+    std::string text; // the four lines, or why there are none
 };
 BudgetAnswer budgetAnswer(const ProcessResult& result);
 

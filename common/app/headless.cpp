@@ -4,6 +4,7 @@
 #include "app/budget.hpp"
 #include "app/capture.hpp"
 #include "app/cost.hpp"
+#include "app/nearest.hpp"
 #include "app/usage_error.hpp"
 
 #include <chrono>
@@ -49,7 +50,7 @@ class PassProbe final : public PassObserver {
         for (const DrawnPass& pass : passes)
             names.push_back(pass.name);
         throw UsageError("--inject " + waiting_.front().name + ": with these settings there is " +
-                         joined(names));
+                         joined(names) + didYouMean(waiting_.front().name, names));
     }
 
   private:
@@ -92,7 +93,8 @@ Image renderImage(Renderer& renderer, const FrameRequest& request, int frame) {
     std::vector<std::string> names = targetNames(passes);
     for (const DrawnPass& pass : passes)
         names.push_back(pass.name);
-    throw UsageError("--target " + request.target + ": with these settings there is " + joined(names));
+    throw UsageError("--target " + request.target + ": with these settings there is " + joined(names) +
+                     didYouMean(request.target, names));
 }
 
 // Says how far a long run is, on a terminal, once two seconds have gone.

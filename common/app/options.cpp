@@ -2,6 +2,7 @@
 #include "app/options.hpp"
 
 #include "app/capture.hpp"
+#include "app/nearest.hpp"
 #include "app/usage_error.hpp"
 
 #include <CLI/CLI.hpp>
@@ -32,6 +33,42 @@ int parseInteger(std::string_view text, int min, int max, const std::string& wha
         throw UsageError(what + ": \"" + std::string(text) + "\" is not a whole number from " +
                          std::to_string(min) + " to " + std::to_string(max));
     return value;
+}
+
+bool isOneOf(const std::string& text, const std::vector<std::string>& words) {
+    return std::find(words.begin(), words.end(), text) != words.end();
+}
+
+// For an option that takes one of a few words.
+CLI::Validator oneOf(const std::vector<std::string>& words) {
+    std::string list;
+    for (const std::string& word : words)
+        list += (list.empty() ? "" : ",") + word;
+    return {[=](const std::string& value) {
+                return isOneOf(value, words) ? ""
+                                             : value + " not in {" + list + "}" + didYouMean(value, words);
+            },
+            "{" + list + "}"};
+}
+
+// What a word that is no option may have meant: an option, or a setting given as one.
+std::string optionMeant(const CLI::App& app, Settings& settings) {
+    std::vector<std::string> options;
+    for (const CLI::Option* option : app.get_options())
+        options.insert(options.end(), option->get_lnames().begin(), option->get_lnames().end());
+    std::vector<std::string> names;
+    for (const Setting& setting : settings.all())
+        names.push_back(setting.name);
+    const std::vector<std::string> words = app.remaining();
+    for (auto word = words.rbegin(); word != words.rend(); ++word) { // CLI11 lists the last word first
+        const auto begin = std::min(word->find_first_not_of('-'), word->size());
+        const std::string name = word->substr(begin, word->find('=') - begin);
+        if (const std::string option = nearestName(name, options); !option.empty())
+            return "; did you mean --" + option + "?";
+        if (const std::string setting = nearestName(name, names); !setting.empty())
+            return "; did you mean --set " + setting + "=VALUE?";
+    }
+    return "";
 }
 
 // "A..B" or "A..B:S" into the request.
@@ -93,6 +130,9 @@ std::string scalarText(const std::string& key, const nlohmann::json& value) {
     throw UsageError("\"" + key + "\" wants a text, a number, true or false");
 }
 
+const std::vector<std::string> batch_keys = {"size", "frame",  "frames", "preset",   "set",
+                                             "out",  "target", "inject", "readings", "cost"};
+
 FrameRequest parseBatchLine(const std::string& line, FrameRequest request) {
     const auto json = nlohmann::json::parse(line, nullptr, false);
     if (!json.is_object()) throw UsageError("not a JSON object on one line");
@@ -129,7 +169,8 @@ FrameRequest parseBatchLine(const std::string& line, FrameRequest request) {
             throw UsageError(
                 "\"" + key +
                 "\" with this value is no key of a batch line; there is size, frame, "
-                "frames, preset, set (an object or a list), out, target, inject, readings, cost");
+                "frames, preset, set (an object or a list), out, target, inject, readings, cost" +
+                (isOneOf(key, batch_keys) ? "" : didYouMean(key, batch_keys)));
         }
     }
     if (json.contains("frame") && json.contains("frames"))
@@ -217,20 +258,24 @@ const char* kindName(Budget::Kind kind) {
 
 Budget parseBudget(const std::string& text) {
     const auto equals = std::min(text.find('='), text.size());
+    const std::string given = text.substr(0, equals);
     Budget budget;
     bool known = false;
-    for (const Budget::Kind kind : {Budget::Kind::flip, Budget::Kind::rmse, Budget::Kind::ev})
-        if (text.substr(0, equals) == kindName(kind)) {
-            budget.kind = kind;
-            known = true;
-        }
+    std::vector<std::string> kinds;
+    for (const Budget::Kind kind : {Budget::Kind::flip, Budget::Kind::rmse, Budget::Kind::ev}) {
+        kinds.emplace_back(kindName(kind));
+        if (given != kinds.back()) continue;
+        budget.kind = kind;
+        known = true;
+    }
     const double most = budget.kind == Budget::Kind::ev ? 16 : 1;
     const char* const end = text.data() + text.size();
     const auto [stop, error] =
         std::from_chars(text.data() + std::min(equals + 1, text.size()), end, budget.limit);
     if (!known || error != std::errc() || stop != end || !(budget.limit > 0 && budget.limit <= most))
         throw UsageError("--budget " + text +
-                         ": write flip=LIMIT or rmse=LIMIT, above 0 and at most 1, or ev=LIMIT, at most 16");
+                         ": write flip=LIMIT or rmse=LIMIT, above 0 and at most 1, or ev=LIMIT, at most 16" +
+                         (known ? "" : didYouMean(given, kinds)));
     return budget;
 }
 
@@ -257,6 +302,28 @@ std::filesystem::path FrameRequest::outFor(int frame) const {
     return name;
 }
 
+Command headlessCommand(const FrameRequest& request, const RungFiles& files, const std::string& context) {
+    Command command{.program = std::filesystem::read_symlink("/proc/self/exe"),
+                    .arguments = {"--headless", "--preset", request.preset, "--size",
+                                  std::to_string(request.size.x) + "x" + std::to_string(request.size.y),
+                                  "--frame", std::to_string(request.first_frame)}};
+    const auto add = [&](const char* option, const std::string& value) {
+        if (!value.empty()) command.arguments.insert(command.arguments.end(), {option, value});
+    };
+    const auto addFile = [&](const char* option, const std::filesystem::path& file) {
+        if (!file.empty()) add(option, std::filesystem::absolute(file));
+    };
+    add("--context", context);
+    for (const std::string& set : request.sets)
+        add("--set", set);
+    addFile("--mesh", files.mesh);
+    addFile("--floor", files.floor);
+    addFile("--environment", files.environment);
+    addFile("--image", files.image);
+    add("--out", request.out);
+    return command;
+}
+
 std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info, Settings& settings) {
     CLI::App app(info.summary, info.name);
     app.set_version_flag("--version", info.name + " " GLLADDER_VERSION " (GL Ladder)");
@@ -280,7 +347,7 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
     app.add_flag("--headless", headless,
                  "render without a window: OSMesa, or EGL where that is not installed");
     app.add_option("--context", context, "who provides OpenGL: window, osmesa or egl")
-        ->check(CLI::IsMember({"window", "osmesa", "egl"}))
+        ->check(oneOf({"window", "osmesa", "egl"}))
         ->type_name("KIND");
     app.add_flag("--or-picture", or_picture,
                  "where no window can be opened, render " + info.name + ".png instead, and say so");
@@ -321,7 +388,7 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
            "--counter", counter,
            "what --cost and --budget count with: auto, perf (hardware instructions), callgrind (exact,\n"
            "slow, needs valgrind), cpu (time) or gpu (timer queries)")
-        ->check(CLI::IsMember({"auto", "perf", "callgrind", "cpu", "gpu"}))
+        ->check(oneOf({"auto", "perf", "callgrind", "cpu", "gpu"}))
         ->type_name("KIND");
     app.add_flag("--json", options.json, "with --settings, --readings, --cost or --budget: print JSON");
     if (info.takes_files) {
@@ -349,7 +416,8 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
             app.exit(error);
             return std::nullopt;
         }
-        throw UsageError(std::string(error.what()) + "; --help lists the options");
+        throw UsageError(std::string(error.what()) + "; --help lists the options" +
+                         optionMeant(app, settings));
     }
 
     for (const std::string& injection : injections)

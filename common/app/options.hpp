@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/rung.hpp"
+#include "process/process.hpp"
 
 #include <filesystem>
 #include <glm/vec2.hpp>
@@ -74,6 +75,11 @@ struct Options {
 // std::runtime_error where the batch file cannot be read. Leaves the settings at their defaults: the requests
 // say what to set.
 std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info, Settings& settings);
+
+// The other way round: this program and the options that ask for a request's size, first frame, settings and
+// file, in a headless context ("osmesa", "egl", or "" for whichever is there). Files are named by their whole
+// paths. Throws std::filesystem::filesystem_error.
+Command headlessCommand(const FrameRequest& request, const RungFiles& files, const std::string& context);
 
 // "NAME:X,Y:VALUE", VALUE a number, inf, -inf or nan. Throws UsageError.
 Injection parseInjection(const std::string& text);

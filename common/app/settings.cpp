@@ -1,6 +1,7 @@
 // Declaring, parsing and listing settings.
 #include "app/settings.hpp"
 
+#include "app/nearest.hpp"
 #include "app/usage_error.hpp"
 
 #include <algorithm>
@@ -59,7 +60,7 @@ double parseChoice(const Setting& setting, std::string_view text) {
     const auto found = std::find(setting.choices.begin(), setting.choices.end(), text);
     if (found == setting.choices.end())
         throw UsageError("setting " + setting.name + ": \"" + std::string(text) + "\" is not one of " +
-                         joined(setting.choices));
+                         joined(setting.choices) + didYouMean(text, setting.choices));
     return static_cast<double>(found - setting.choices.begin());
 }
 
@@ -76,6 +77,14 @@ std::string Setting::text() const {
         break;
     }
     return shortest(value);
+}
+
+bool Choice::operator==(std::string_view choice) const {
+    const std::vector<std::string>& choices = setting_->choices;
+    if (std::find(choices.begin(), choices.end(), choice) == choices.end())
+        throw std::logic_error("setting " + setting_->name + " is compared with \"" + std::string(choice) +
+                               "\", which is not one of " + joined(choices) + didYouMean(choice, choices));
+    return name() == choice;
 }
 
 Defines Choice::defines() const {
@@ -133,9 +142,13 @@ void Settings::dial(Dial dial) {
 }
 
 Setting& Settings::at(std::string_view name) {
-    for (Setting& setting : settings_)
+    std::vector<std::string> names;
+    for (Setting& setting : settings_) {
         if (setting.name == name) return setting;
-    throw UsageError("unknown setting \"" + std::string(name) + "\"; --settings lists them");
+        names.push_back(setting.name);
+    }
+    throw UsageError("unknown setting \"" + std::string(name) + "\"; --settings lists them" +
+                     didYouMean(name, names));
 }
 
 void Settings::set(std::string_view name, std::string_view value) {
@@ -171,7 +184,8 @@ void Settings::applyPreset(std::string_view name) {
             set(key, value);
         return;
     }
-    throw UsageError("unknown preset \"" + std::string(name) + "\"; there is " + joined(names));
+    throw UsageError("unknown preset \"" + std::string(name) + "\"; there is " + joined(names) +
+                     didYouMean(name, names));
 }
 
 void Settings::reset() {

@@ -59,7 +59,9 @@ class Toggle {
 class Choice {
   public:
     explicit Choice(const Setting& setting) : setting_(&setting) {}
-    bool operator==(std::string_view choice) const { return name() == choice; }
+    // Throws std::logic_error for a text that is none of the choices: a method misspelt in the code would
+    // never be drawn.
+    bool operator==(std::string_view choice) const;
     const std::string& name() const { return setting_->choices[static_cast<std::size_t>(setting_->value)]; }
 
     // For shader variants: "NAME_CHOICE n" for every choice, in capitals, and "NAME n" for the present one,

@@ -51,7 +51,24 @@ void become(const Command& command, int out, int err, char* const* arguments, ch
     _exit(127);
 }
 
+// Within single quotes nothing has a meaning but the quote itself.
+std::string shellWord(const std::string& word) {
+    constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=:,+-";
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+    std::string quoted = "'";
+    for (const char c : word)
+        quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return quoted + "'";
+}
+
 } // namespace
+
+std::string shellLine(const Command& command) {
+    std::string line = shellWord(command.program.string());
+    for (const std::string& argument : command.arguments)
+        line += " " + shellWord(argument);
+    return line;
+}
 
 Process::Process(const Command& command) {
     if (access(command.program.c_str(), X_OK) != 0)

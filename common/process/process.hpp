@@ -28,6 +28,9 @@ struct Command {
     std::optional<unsigned> file_limit_kib = {}; // writing beyond fails, as on a full disk
 };
 
+// Its program and arguments as a line for a POSIX shell, quoted where that needs it.
+std::string shellLine(const Command& command);
+
 // A program under way. Killed where it is still running when this ends.
 class Process {
   public:

@@ -29,7 +29,45 @@ void numberWidget(Setting& setting) {
         setting.value = std::clamp(static_cast<double>(value), setting.min, setting.max);
 }
 
-void widget(Setting& setting) {
+constexpr ImGuiPopupFlags any_popup = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
+
+} // namespace
+
+// As ImGui's, but Esc closes it.
+bool Panel::beginCombo(const char* label, const char* chosen) const {
+    if (!ImGui::BeginCombo(label, chosen)) return false;
+    if (close_popup_) ImGui::CloseCurrentPopup();
+    return true;
+}
+
+// Of the widget before it, where the mouse is over that: beside the panel where there is room, else below or
+// above the widget; never beyond the window, where ImGui's own would end.
+void Panel::tooltip(const std::string& text) const {
+    if (!ImGui::IsItemHovered()) return;
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const ImVec2 padding = style.WindowPadding;
+    const float gap = style.ItemSpacing.y;
+    const float wrap = std::max(std::min(260 * scale_, display.x - 2 * padding.x), 1.0F);
+    const ImVec2 text_size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+    const ImVec2 size(text_size.x + 2 * padding.x, text_size.y + 2 * padding.y);
+    const float panel_right = ImGui::GetWindowPos().x + ImGui::GetWindowSize().x;
+    ImVec2 place(panel_right + gap, ImGui::GetItemRectMin().y);
+    if (place.x + size.x > display.x) {
+        place = {ImGui::GetMousePos().x, ImGui::GetItemRectMax().y + gap};
+        if (place.y + size.y > display.y) place.y = ImGui::GetItemRectMin().y - gap - size.y;
+    }
+    place.x = std::clamp(place.x, 0.0F, std::max(display.x - size.x, 0.0F));
+    place.y = std::clamp(place.y, 0.0F, std::max(display.y - size.y, 0.0F));
+    ImGui::SetNextWindowPos(place);
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(padding.x + wrap);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+void Panel::widget(Setting& setting) {
     switch (setting.kind) {
     case Setting::Kind::toggle: {
         bool on = setting.value != 0;
@@ -37,7 +75,7 @@ void widget(Setting& setting) {
         break;
     }
     case Setting::Kind::choice:
-        if (ImGui::BeginCombo(setting.name.c_str(), setting.text().c_str())) {
+        if (beginCombo(setting.name.c_str(), setting.text().c_str())) {
             for (std::size_t i = 0; i < setting.choices.size(); ++i)
                 if (ImGui::Selectable(setting.choices[i].c_str(), static_cast<double>(i) == setting.value))
                     setting.value = static_cast<double>(i);
@@ -49,24 +87,28 @@ void widget(Setting& setting) {
         numberWidget(setting);
         break;
     }
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", setting.help.c_str());
+    tooltip(setting.help);
 }
 
-void settingsSection(Settings& settings) {
+void Panel::settingsSection(Settings& settings) {
     if (ImGui::Button("reset")) settings.reset();
+    tooltip("every setting as it is by default");
     for (const Settings::Preset& preset : settings.presets()) {
         ImGui::SameLine();
         if (ImGui::Button(preset.name.c_str())) settings.applyPreset(preset.name);
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", preset.help.c_str());
+        tooltip(preset.help);
     }
     for (Setting& setting : settings.all())
         widget(setting);
 }
 
+namespace {
+
 void keysSection() {
-    for (const char* line : {"Space   pause, go on", ". ,     one frame on, back",
-                             "drag    orbit, or the divider", "wheel   zoom", "R       the scripted camera",
-                             "P       write this frame", "H       hide the panel", "Esc     quit"})
+    for (const char* line :
+         {"Space   pause, go on", ". ,     one frame on, back", "drag    orbit, or the divider",
+          "wheel   zoom", "R       the scripted camera", "P       write this frame", "H       hide the panel",
+          "Esc     close a list, or quit"})
         ImGui::TextUnformatted(line);
 }
 
@@ -98,6 +140,11 @@ Panel::~Panel() {
 bool Panel::hasMouse() const { return ImGui::GetIO().WantCaptureMouse; }
 bool Panel::hasKeyboard() const { return ImGui::GetIO().WantTextInput; }
 
+bool Panel::closePopup() {
+    close_popup_ = visible && ImGui::IsPopupOpen("", any_popup);
+    return close_popup_;
+}
+
 void Panel::budgetSection(const PanelState& state) {
     if (state.searching_s > 0) {
         ImGui::Text("searching, %.0f s", state.searching_s);
@@ -105,16 +152,29 @@ void Panel::budgetSection(const PanelState& state) {
         stop_asked = ImGui::Button("stop");
         return;
     }
-    if (ImGui::BeginCombo("error", kindName(budget_.kind))) {
+    // A rung that meters no exposure refuses a budget of it.
+    const bool meters = std::any_of(state.readings.begin(), state.readings.end(),
+                                    [](const Reading& reading) { return reading.name == exposure_reading; });
+    if (beginCombo("error", kindName(budget_.kind))) {
         for (const Budget::Kind kind : {Budget::Kind::flip, Budget::Kind::rmse, Budget::Kind::ev})
-            if (ImGui::Selectable(kindName(kind), kind == budget_.kind)) budget_.kind = kind;
+            if ((kind != Budget::Kind::ev || meters) &&
+                ImGui::Selectable(kindName(kind), kind == budget_.kind))
+                budget_.kind = kind;
         ImGui::EndCombo();
     }
+    tooltip("flip: mean difference as the eye sees it; rmse: of display values, both 0 to 1" +
+            std::string(meters ? "; ev: of the exposure, stops" : ""));
     auto limit = static_cast<float>(budget_.limit);
     if (ImGui::SliderFloat("at most", &limit, 0.001F, 1, "%.3g",
                            ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
         budget_.limit = limit;
+    tooltip("how far the frame may be from that of the most accurate settings");
     if (ImGui::Button("find the cheapest settings")) search_asked = budget_;
+    tooltip("takes some seconds, while the picture goes on; what is found is set");
+    if (!state.can_undo) return;
+    ImGui::SameLine();
+    undo_asked = ImGui::Button("undo");
+    tooltip("the settings as they were before the search");
 }
 
 void Panel::draw(Settings& settings, const PanelState& state) {
@@ -122,7 +182,7 @@ void Panel::draw(Settings& settings, const PanelState& state) {
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
     search_asked.reset();
-    stop_asked = false;
+    stop_asked = undo_asked = false;
     if (visible) {
         const ImVec2 display = ImGui::GetIO().DisplaySize;
         const float widest = std::max(display.x - 16, 1.0F);
@@ -154,6 +214,7 @@ void Panel::draw(Settings& settings, const PanelState& state) {
         ImGui::PopItemWidth();
         ImGui::End();
     }
+    close_popup_ = false;
     ImGui::Render();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }

@@ -2,7 +2,7 @@
 // declarations.
 #pragma once
 
-#include "app/options.hpp"
+#include "app/budget.hpp"
 
 #include <optional>
 #include <string>
@@ -26,6 +26,7 @@ struct PanelState {
     std::vector<PassTime> pass_times; // empty until asked for
     std::vector<Reading> readings;    // of the frame shown, where the rung has some
     double searching_s = 0;           // how long a search within a budget has been under way; 0: none is
+    bool can_undo = false;            // whether what a search found still stands, and can be taken back
     std::string message;              // the last thing that happened, such as a file written
 };
 
@@ -40,9 +41,14 @@ class Panel {
     // Draws over the default framebuffer, which must be bound. Changes settings as the person does.
     void draw(Settings& settings, const PanelState& state);
 
-    // Whether a button was pressed in the last draw(): to search within that budget, or to stop the search.
+    // Whether a button was pressed in the last draw(): to search within that budget, to stop the search, or
+    // to take back what it found.
     std::optional<Budget> search_asked;
     bool stop_asked = false;
+    bool undo_asked = false;
+
+    // Closes the list of choices that is open. False where none is.
+    bool closePopup();
 
     bool visible = true;
     bool wantsPassTimes() const { return visible && pass_times_open_; }
@@ -51,11 +57,16 @@ class Panel {
     bool hasKeyboard() const;
 
   private:
+    void settingsSection(Settings& settings);
+    void widget(Setting& setting);
     void budgetSection(const PanelState& state);
+    bool beginCombo(const char* label, const char* chosen) const;
+    void tooltip(const std::string& text) const;
 
     Budget budget_{Budget::Kind::flip, 0.01};
     bool pass_times_open_ = false;
-    float scale_ = 1; // pixels per unit: 2 on most HiDPI displays
+    bool close_popup_ = false; // in the next draw()
+    float scale_ = 1;          // pixels per unit: 2 on most HiDPI displays
 };
 
 } // namespace gll

@@ -1,7 +1,6 @@
 // The window by GLFW: clock, keys, mouse, presenting and saving frames.
 #include "window/window.hpp"
 
-#include "app/budget.hpp"
 #include "app/capture.hpp"
 #include "window/panel.hpp"
 
@@ -204,7 +203,7 @@ class RungWindow {
         if (key == GLFW_KEY_R) that.resetCamera();
         if (key == GLFW_KEY_P) that.save_asked_ = true;
         if (key == GLFW_KEY_H) that.panel_->visible = !that.panel_->visible;
-        if (key == GLFW_KEY_ESCAPE) glfwSetWindowShouldClose(window, GLFW_TRUE);
+        if (key == GLFW_KEY_ESCAPE && !that.panel_->closePopup()) glfwSetWindowShouldClose(window, GLFW_TRUE);
     }
 
     // Where on the window's width the divider of two compared methods is; nothing where none is shown.
@@ -276,10 +275,9 @@ class RungWindow {
 
     void renderIfChanged(glm::ivec2 size) {
         const int frame = clock_.frame();
-        const std::string settings_now = settings_.commandLine();
+        const std::vector<std::string> sets_now = settings_.changed();
         const bool times = panel_->wantsPassTimes();
-        if (frame == state_.frame && size == rendered_size_ && settings_now == rendered_settings_ && !times)
-            return;
+        if (frame == state_.frame && size == rendered_size_ && sets_now == rendered_sets_ && !times) return;
         const Clock::time_point start = Clock::now();
         if (times) state_.pass_times = timer_.begin();
         renderer_.render(frame, size, times ? &timer_ : nullptr);
@@ -287,7 +285,7 @@ class RungWindow {
         state_.frame_time_ms = secondsSince(start) * 1e3;
         state_.frame = frame;
         rendered_size_ = size;
-        rendered_settings_ = settings_now;
+        rendered_sets_ = sets_now;
         readings_are_current_ = false;
     }
 
@@ -305,6 +303,7 @@ class RungWindow {
             readings_are_current_ = true;
         }
         state_.searching_s = search_ ? secondsSince(search_start_) : 0;
+        state_.can_undo = !found_.empty() && stands(found_.back());
         panel_->draw(settings_, state_);
         attendSearch(size);
         context_.debugLog().check("OpenGL, presenting");
@@ -314,16 +313,48 @@ class RungWindow {
     // Searches within a budget in a process of its own, and takes over what it finds.
     void attendSearch(glm::ivec2 size) {
         if (panel_->stop_asked) search_.reset();
+        if (panel_->undo_asked) undoSearch();
         if (panel_->search_asked) startSearch(*panel_->search_asked, size);
         if (!search_) return;
         const std::optional<ProcessResult> result = search_->poll();
         if (!result) return;
         search_.reset();
         const BudgetAnswer answer = budgetAnswer(*result);
-        for (const auto& [name, value] : answer.set)
+        std::vector<Change> found;
+        for (const auto& [name, value] : answer.set) {
+            found.push_back({name, settings_.at(name).text(), value});
             settings_.set(name, value);
-        state_.message = answer.text;
-        std::printf("%s\n", answer.text.c_str());
+        }
+        if (!found.empty()) found_.push_back(found);
+        say(answer.text);
+    }
+
+    struct Change {
+        std::string setting;
+        std::string before;
+        std::string found;
+    };
+
+    bool stands(const std::vector<Change>& changes) const {
+        return std::all_of(changes.begin(), changes.end(), [&](const Change& change) {
+            return settings_.at(change.setting).text() == change.found;
+        });
+    }
+
+    void undoSearch() {
+        std::string text = "undone:";
+        for (const Change& change : found_.back()) {
+            settings_.set(change.setting, change.before);
+            text += " --set " + change.setting + "=" + change.before;
+        }
+        found_.pop_back();
+        say(text);
+    }
+
+    // In the panel, and for who started the program in a terminal.
+    void say(const std::string& message) {
+        state_.message = message;
+        std::printf("%s\n", message.c_str());
         std::fflush(stdout);
     }
 
@@ -332,10 +363,8 @@ class RungWindow {
         request.size = size;
         request.first_frame = request.last_frame = state_.frame;
         request.sets = settings_.changed();
-        // Where a GPU draws, costs are the GPU's.
-        const char* context = context_.info().is_software ? "" : "egl";
         try {
-            search_.emplace(budgetCommand(budget, request, given_, context));
+            search_.emplace(budgetCommand(budget, request, given_, headlessContext()));
             search_start_ = Clock::now();
             state_.message.clear();
         } catch (const std::runtime_error& error) {
@@ -343,43 +372,41 @@ class RungWindow {
         }
     }
 
-    // The present frame into the current folder, and beside it the command line that renders it again.
+    // Where a GPU draws, frames and costs are the GPU's.
+    const char* headlessContext() const { return context_.info().is_software ? "" : "egl"; }
+
+    // The present frame into the current folder, and beside it the command line that renders it again, into
+    // yet another file: nothing is ever overwritten.
     void save(glm::ivec2 size) {
         save_asked_ = false;
-        const std::string stem = info_.name + "_frame_" + std::to_string(state_.frame);
-        std::filesystem::path path = stem + ".png";
-        for (int i = 2; std::filesystem::exists(path); ++i)
-            path = stem + "_" + std::to_string(i) + ".png";
+        const auto isTaken = [](const std::string& stem) {
+            return std::filesystem::exists(stem + ".png") || std::filesystem::exists(stem + ".txt") ||
+                   std::filesystem::exists(stem + "_again.png");
+        };
         try {
+            const std::string first = info_.name + "_frame_" + std::to_string(state_.frame);
+            std::string stem = first;
+            for (int i = 2; isTaken(stem); ++i)
+                stem = first + "_" + std::to_string(i);
+            FrameRequest request;
+            request.size = size;
+            request.first_frame = request.last_frame = state_.frame;
+            // What the frame was rendered with: the panel may have changed a setting since.
+            request.sets = rendered_sets_;
+            request.out = stem + "_again.png";
+            const std::string line = shellLine(headlessCommand(request, given_, headlessContext()));
+
             Image image = readTexture(renderer_.presented().color());
             image.color_space = ColorSpace::srgb;
-            saveImage(path, forFile(image, ".png"));
-            const std::string text_path = path.stem().string() + ".txt";
-            std::ofstream text(text_path);
-            text << commandLine(size, path) << "\n";
+            saveImage(stem + ".png", forFile(image, ".png"));
+            std::ofstream text(stem + ".txt");
+            text << line << "\n";
             text.close();
-            if (!text) throw std::runtime_error(text_path + ": cannot be written");
-            state_.message = "wrote " + path.string();
+            if (!text) throw std::runtime_error(stem + ".txt: cannot be written");
+            say("wrote " + stem + ".png");
         } catch (const std::runtime_error& error) {
-            state_.message = error.what(); // a full disk must not end the show
+            say(error.what()); // a full disk must not end the show
         }
-        std::printf("%s\n", state_.message.c_str());
-        std::fflush(stdout);
-    }
-
-    std::string commandLine(glm::ivec2 size, const std::filesystem::path& out) const {
-        std::string line = info_.name + " --headless --size " + std::to_string(size.x) + "x" +
-                           std::to_string(size.y) + " --frame " + std::to_string(state_.frame);
-        // What the frame was rendered with: the panel may have changed a setting since.
-        if (!rendered_settings_.empty()) line += " " + rendered_settings_;
-        const auto file = [&](const char* option, const std::filesystem::path& path) {
-            if (!path.empty()) line += std::string(" ") + option + " \"" + path.string() + "\"";
-        };
-        file("--mesh", given_.mesh);
-        file("--floor", given_.floor);
-        file("--environment", given_.environment);
-        file("--image", given_.image);
-        return line + " --out " + out.string();
     }
 
     const RungInfo& info_;
@@ -393,10 +420,11 @@ class RungWindow {
     std::optional<Panel> panel_;
     PanelState state_;
     glm::ivec2 rendered_size_{0};
-    std::string rendered_settings_;
+    std::vector<std::string> rendered_sets_;
     bool readings_are_current_ = false;
     std::optional<Process> search_; // for the cheapest settings within a budget
     Clock::time_point search_start_;
+    std::vector<std::vector<Change>> found_; // what searches changed and undo takes back, the last at the end
     bool save_asked_ = false;
     bool drags_divider_ = false;
     double cursor_x_ = 0;

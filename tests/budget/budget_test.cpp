@@ -259,7 +259,24 @@ TEST(Budget, looksAtASequenceFromItsFirstFrameToItsLast) {
     EXPECT_EQ(frames("1..601"), (std::set<int>{1, 151, 301, 451, 601}));
 }
 
-TEST(Budget, printsThreeLinesAndRendersWhatItPicked) {
+TEST(Budget, saysWhatTheSettingsBeforeCostAndHowFarOffTheyAre) {
+    const Case one{"05_hdr_bloom", "flip=0.1", {}};
+    const glm::ivec2 size(64, 48);
+    const json found = search(one, size, "callgrind");
+    std::vector<View> views;
+    for (const json& view : found["views"])
+        views.push_back({view["frame"], {view["size"][0], view["size"][1]}});
+    const double error = worst(errors(one, {setOf(found["best"]), {}}, views)[1]);
+    EXPECT_NEAR(found["present_error"].get<double>(), error, 1e-6);
+    EXPECT_GT(error, 0.1) << "with settings that are over the budget, more would be seen";
+    const double cost = charts::costs(programs / one.rung, {{}}, size, {}).at(0).at("sum_cu");
+    EXPECT_NEAR(found["present_cost_cu"].get<double>() / cost, 1, 0.02);
+    const std::string line = found["lines"][2];
+    EXPECT_TRUE(line.starts_with("before: ")) << line;
+    EXPECT_TRUE(line.ends_with("over the budget")) << line;
+}
+
+TEST(Budget, printsFourLinesAndRendersWhatItPicked) {
     const test::TemporaryFolder folder;
     const std::string out = (folder / "picked.png").string();
     const std::string again = (folder / "again.png").string();
@@ -268,9 +285,9 @@ TEST(Budget, printsThreeLinesAndRendersWhatItPicked) {
         test::runToSuccess(
             {programs / one.rung, words(one, {"--budget", one.budget, "--size", "160x120", "--out", out})})
             .out;
-    EXPECT_EQ(std::count(printed.begin(), printed.end(), '\n'), 4)
+    EXPECT_EQ(std::count(printed.begin(), printed.end(), '\n'), 5)
         << printed; // and that the file was written
-    for (const char* beginning : {"picked: ", "\ncosts: ", "\nnot needed: "})
+    for (const char* beginning : {"picked: ", "\ncosts: ", "\nbefore: ", "\nnot needed: "})
         EXPECT_NE(printed.find(beginning), std::string::npos) << printed;
     std::vector<std::string> pasted = words(one, {"--size", "160x120", "--out", again});
     std::istringstream picked(printed.substr(0, printed.find(';')));

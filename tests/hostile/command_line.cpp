@@ -30,7 +30,7 @@ Refusal out(const char* name, const std::string& text) { return {name, {"--out",
 INSTANTIATE_TEST_SUITE_P(
     Options, CommandLine,
     testing::Values(
-        Refusal{"unknownOption", {"--headles"}, 2, {"--headles", "--help"}},
+        Refusal{"unknownOption", {"--headles"}, 2, {"--headles", "--help", "did you mean --headless?"}},
         Refusal{"unknownShortOption", {"-x"}, 2, {"-x"}}, Refusal{"strayWord", {"bloom"}, 2, {"bloom"}},
         Refusal{"severalUnknownOptions", {"--a", "--b\nc"}, 2, {"--a"}},
         Refusal{"optionWithoutItsValue", {"--size"}, 2, {"--size"}},
@@ -40,7 +40,12 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"windowAndHeadless", {"--headless", "--context", "window"}, 2, {"--headless"}},
         Refusal{"windowAndOut", {"--context", "window", "--out", "a.png"}, 2, {"--context window"}},
         Refusal{"unknownPreset", {"--headless", "--preset", "best"}, 2, {"best", "seed"}},
-        Refusal{"unknownTarget", {"--target", "hdd", "--size", "8x8"}, 2, {"hdd", "hdr", "bloom0"}},
+        Refusal{
+            "unknownTarget", {"--target", "hdd", "--size", "8x8"}, 2, {"hdd", "bloom0", "did you mean hdr?"}},
+        Refusal{"unknownPassOfAnInjection",
+                {"--inject", "scen:1,1:nan", "--out", "a.png", "--size", "8x8"},
+                2,
+                {"--inject scen", "did you mean scene?"}},
         Refusal{"readingsOfARungWithout", {"--readings", "--size", "8x8"}, 2, {"--readings"}},
         Refusal{"unknownCounter", {"--cost", "--counter", "guess"}, 2, {"--counter"}},
         Refusal{"frameAndFrames", {"--frame", "1", "--frames", "1..2", "--out", "%d.png"}, 2, {"--frame"}}),
@@ -48,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Settings, CommandLine,
-    testing::Values(setting("unknown", "intensty=1", {"intensty", "--settings"}),
+    testing::Values(setting("unknown", "intensty=1", {"intensty", "--settings", "did you mean intensity?"}),
                     setting("withoutEquals", "intensity", {"KEY=VALUE"}),
                     setting("withoutValue", "intensity=", {"intensity"}),
                     setting("withoutName", "=1", {"unknown setting"}),
@@ -64,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
                     setting("noLevels", "levels=0", {"levels", "1 to 8"}),
                     setting("tooManyInstances", "instances=1000001", {"instances"}),
                     setting("neitherOnNorOff", "bloom=maybe", {"bloom", "maybe"}),
-                    setting("unknownChoice", "tone_map=aces", {"tone_map", "aces_hill"}),
+                    setting("unknownChoice", "tone_map=aces", {"tone_map", "did you mean aces_narkowicz?"}),
                     setting("twoLines", "tone_map=a\nb", {"tone_map"})),
     RefusalName());
 

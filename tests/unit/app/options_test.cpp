@@ -7,6 +7,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
+#include <sstream>
 
 namespace gll::test {
 namespace {
@@ -181,6 +182,61 @@ TEST_F(OptionsTest, whatIsUnknownIsRefused) {
     EXPECT_NE(errorOf({"--mesh", "a.obj"}), "") << "this rung takes no files";
     info.takes_files = true;
     EXPECT_EQ(parse({"--mesh", "a.obj"})->files.mesh, "a.obj");
+}
+
+TEST_F(OptionsTest, whatIsMisspeltIsAnsweredWithTheNearestName) {
+    EXPECT_CONTAINS(errorOf({"--headles"}), "; did you mean --headless?");
+    EXPECT_CONTAINS(errorOf({"--sise=8x8"}), "; did you mean --size?");
+    EXPECT_CONTAINS(errorOf({"-size", "8x8"}), "; did you mean --size?");
+    EXPECT_CONTAINS(errorOf({"--blom", "off"}), "; did you mean --set bloom=VALUE?");
+    EXPECT_CONTAINS(errorOf({"bloom=off"}), "; did you mean --set bloom=VALUE?");
+    EXPECT_CONTAINS(errorOf({"--set", "blom=off"}), "; did you mean bloom?");
+    EXPECT_CONTAINS(errorOf({"--preset", "sede"}), "; did you mean seed?");
+    EXPECT_CONTAINS(errorOf({"--context", "osmesaa"}), "; did you mean osmesa?");
+    EXPECT_CONTAINS(errorOf({"--counter", "callgrid"}), "; did you mean callgrind?");
+    EXPECT_CONTAINS(errorOf({"--budget", "filp=0.1"}), "; did you mean flip?");
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"--vulkan"}, {"--budget", "flip=2"}, {"--size"}})
+        EXPECT_EQ(errorOf(words).find("did you mean"), std::string::npos) << words[0];
+    const auto inBatch = [&](const char* line) { return errorOf({"--batch", batch(line)}); };
+    EXPECT_CONTAINS(inBatch(R"({"fame": 1})"), "; did you mean frame?");
+    EXPECT_CONTAINS(inBatch(R"({"out": "a.png", "set": {"kne": 1}})"), "; did you mean knee?");
+    EXPECT_EQ(inBatch(R"({"cost": 1})").find("did you mean"), std::string::npos) << "the key is right";
+}
+
+TEST_F(OptionsTest, aRequestAsACommandLineComesBackThroughAShell) {
+    FrameRequest request;
+    request.size = {33, 17};
+    request.first_frame = request.last_frame = 7;
+    request.sets = {"knee=0.1", "bloom=off"};
+    request.out = "it's $HOME & \"more\" ; *\\.png";
+    RungFiles files;
+    files.image = "/some where/~a'b`c`.exr";
+    Command command = headlessCommand(request, files, "egl");
+    EXPECT_TRUE(std::filesystem::exists(command.program));
+    command.program = "/usr/bin/printf";
+    command.arguments.insert(command.arguments.begin(), "%s\\n");
+    const ProcessResult shell = Process({.program = "/bin/sh", .arguments = {"-c", shellLine(command)}})
+                                    .wait(std::chrono::seconds(10));
+    std::istringstream lines(shell.out);
+    std::vector<std::string> words;
+    for (std::string line; std::getline(lines, line);)
+        words.push_back(line);
+    info.takes_image = true;
+    const Options options = parse(words).value();
+    EXPECT_EQ(options.context, ContextKind::egl);
+    EXPECT_EQ(options.request.size, request.size);
+    EXPECT_EQ(options.request.first_frame, 7);
+    EXPECT_EQ(options.request.sets, request.sets);
+    EXPECT_EQ(options.request.out, request.out);
+    EXPECT_EQ(options.files.image, files.image);
+}
+
+TEST_F(OptionsTest, aCommandLineNamesFilesByTheirWholePaths) {
+    RungFiles files;
+    files.mesh = "cat.obj";
+    const Command command = headlessCommand({}, files, "");
+    EXPECT_EQ(command.arguments.back(), (std::filesystem::current_path() / "cat.obj").string());
 }
 
 TEST_F(OptionsTest, helpAndVersionArePrintedAndEndIt) {

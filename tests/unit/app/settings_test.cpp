@@ -75,9 +75,17 @@ TEST_F(SettingsTest, aChoiceNamesWhatThereIs) {
     EXPECT_EQ(errorOf("down_filter", "tent-2"), "");
     EXPECT_TRUE(filter == "tent-2");
     EXPECT_EQ(errorOf("down_filter", "6tap"),
-              "setting down_filter: \"6tap\" is not one of 13tap, 5tap, tent-2");
+              "setting down_filter: \"6tap\" is not one of 13tap, 5tap, tent-2; did you mean 5tap?");
     EXPECT_NE(errorOf("down_filter", "0"), "");
     EXPECT_TRUE(filter == "tent-2");
+}
+
+TEST_F(SettingsTest, comparingAChoiceWithATextThatIsNoneOfThemIsAnErrorInTheProgram) {
+    EXPECT_FALSE(filter == "tent-2");
+    EXPECT_EQ(messageOf<std::logic_error>([&] { (void)(filter == "5tapp"); }),
+              "setting down_filter is compared with \"5tapp\", which is not one of 13tap, 5tap, tent-2; "
+              "did you mean 5tap?");
+    EXPECT_THROW((void)(filter != "tent"), std::logic_error);
 }
 
 TEST_F(SettingsTest, choicesBecomeDefinitionsForTheShader) {
@@ -91,7 +99,8 @@ TEST_F(SettingsTest, choicesBecomeDefinitionsForTheShader) {
 }
 
 TEST_F(SettingsTest, anUnknownSettingIsNamed) {
-    EXPECT_EQ(errorOf("kneee", "1"), "unknown setting \"kneee\"; --settings lists them");
+    EXPECT_EQ(errorOf("kneee", "1"), "unknown setting \"kneee\"; --settings lists them; did you mean knee?");
+    EXPECT_EQ(errorOf("colour", "1"), "unknown setting \"colour\"; --settings lists them");
     EXPECT_EQ(messageOf<UsageError>([&] { all.set("knee"); }), "--set knee: write KEY=VALUE");
     EXPECT_NE(messageOf<UsageError>([&] { all.set("=1"); }), "");
     EXPECT_NE(messageOf<UsageError>([&] { all.set("knee=1=2"); }), "");
@@ -144,7 +153,7 @@ TEST_F(SettingsTest, anUnknownPresetNamesWhatThereIs) {
     all.preset({"soft", "help", {}});
     all.set("levels=2");
     EXPECT_EQ(messageOf<UsageError>([&] { all.applyPreset("sedd"); }),
-              "unknown preset \"sedd\"; there is seed, soft");
+              "unknown preset \"sedd\"; there is seed, soft; did you mean seed?");
     EXPECT_EQ(int(levels), 2);
 }
 
