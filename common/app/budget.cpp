@@ -532,7 +532,7 @@ Lines linesOf(const BudgetResult& result) {
     for (const std::string& name : result.not_needed)
         lines.not_needed += (lines.not_needed.empty() ? "" : ", ") + name;
     lines.not_needed =
-        "not needed: " + (lines.not_needed.empty() ? "nothing, all of it is" : lines.not_needed);
+        "not needed: " + (lines.not_needed.empty() ? "nothing" : lines.not_needed);
     return lines;
 }
 

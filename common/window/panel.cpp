@@ -48,12 +48,14 @@ void Panel::tooltip(const std::string& text) const {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const ImVec2 padding = style.WindowPadding;
     const float gap = style.ItemSpacing.y;
-    const float wrap = std::max(std::min(260 * scale_, display.x - 2 * padding.x), 1.0F);
+    const float panel_right = ImGui::GetWindowPos().x + ImGui::GetWindowSize().x;
+    const float room = display.x - panel_right - gap - 2 * padding.x;
+    const bool beside = room > 150 * scale_;
+    const float wrap = std::max(std::min(260 * scale_, beside ? room : display.x - 2 * padding.x), 1.0F);
     const ImVec2 text_size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
     const ImVec2 size(text_size.x + 2 * padding.x, text_size.y + 2 * padding.y);
-    const float panel_right = ImGui::GetWindowPos().x + ImGui::GetWindowSize().x;
     ImVec2 place(panel_right + gap, ImGui::GetItemRectMin().y);
-    if (place.x + size.x > display.x) {
+    if (!beside) {
         place = {ImGui::GetMousePos().x, ImGui::GetItemRectMax().y + gap};
         if (place.y + size.y > display.y) place.y = ImGui::GetItemRectMin().y - gap - size.y;
     }
@@ -145,6 +147,27 @@ bool Panel::closePopup() {
     return close_popup_;
 }
 
+// At the bottom, where it moves nothing, and over all else.
+void Panel::messageLine(const std::string& text) const {
+    const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float wrap = std::max(display.x - 2 * (8 + padding.x), 1.0F);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
+    const ImVec2 place(8 + padding.x, display.y - 8 - padding.y - size.y);
+    ImDrawList& over = *ImGui::GetForegroundDrawList();
+    over.AddRectFilled({place.x - padding.x, place.y - padding.y},
+                       {place.x + size.x + padding.x, place.y + size.y + padding.y},
+                       ImGui::GetColorU32(ImGuiCol_PopupBg));
+    over.AddText(nullptr, 0, place, ImGui::GetColorU32(ImGuiCol_Text), text.c_str(), nullptr, wrap);
+}
+
+void Panel::wrappedText(const std::string& text) const {
+    if (text.empty()) return;
+    ImGui::PushTextWrapPos(230 * scale_);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+}
+
 void Panel::budgetSection(const PanelState& state) {
     if (state.searching_s > 0) {
         ImGui::Text("searching, %.0f s", state.searching_s);
@@ -171,10 +194,12 @@ void Panel::budgetSection(const PanelState& state) {
     tooltip("how far the frame may be from that of the most accurate settings");
     if (ImGui::Button("find the cheapest settings")) search_asked = budget_;
     tooltip("takes some seconds, while the picture goes on; what is found is set");
-    if (!state.can_undo) return;
-    ImGui::SameLine();
-    undo_asked = ImGui::Button("undo");
-    tooltip("the settings as they were before the search");
+    if (state.can_undo) {
+        ImGui::SameLine();
+        undo_asked = ImGui::Button("undo");
+        tooltip("the settings as they were before the search");
+    }
+    wrappedText(state.search_answer);
 }
 
 void Panel::draw(Settings& settings, const PanelState& state) {
@@ -195,11 +220,6 @@ void Panel::draw(Settings& settings, const PanelState& state) {
         ImGui::Text("frame %d%s, %.2f ms", state.frame, state.paused ? " (paused)" : "", state.frame_time_ms);
         for (const Reading& reading : state.readings)
             ImGui::Text("%s %.4g %s", reading.name.c_str(), reading.value, reading.unit.c_str());
-        if (!state.message.empty()) {
-            ImGui::PushTextWrapPos(230 * scale_);
-            ImGui::TextUnformatted(state.message.c_str());
-            ImGui::PopTextWrapPos();
-        }
         // In a small window the list would hide the picture: there it starts closed.
         ImGui::SetNextItemOpen(display.x > 560 * scale_, ImGuiCond_Once);
         if (ImGui::CollapsingHeader("settings", ImGuiTreeNodeFlags_DefaultOpen)) settingsSection(settings);
@@ -213,6 +233,7 @@ void Panel::draw(Settings& settings, const PanelState& state) {
         if (ImGui::CollapsingHeader("keys")) keysSection();
         ImGui::PopItemWidth();
         ImGui::End();
+        if (!state.message.empty()) messageLine(state.message);
     }
     close_popup_ = false;
     ImGui::Render();

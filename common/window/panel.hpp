@@ -27,7 +27,8 @@ struct PanelState {
     std::vector<Reading> readings;    // of the frame shown, where the rung has some
     double searching_s = 0;           // how long a search within a budget has been under way; 0: none is
     bool can_undo = false;            // whether what a search found still stands, and can be taken back
-    std::string message;              // the last thing that happened, such as a file written
+    std::string search_answer;        // what the last search found, or why it did not
+    std::string message;              // what happened just now, such as a file written
 };
 
 class Panel {
@@ -62,6 +63,8 @@ class Panel {
     void budgetSection(const PanelState& state);
     bool beginCombo(const char* label, const char* chosen) const;
     void tooltip(const std::string& text) const;
+    void wrappedText(const std::string& text) const;
+    void messageLine(const std::string& text) const;
 
     Budget budget_{Budget::Kind::flip, 0.01};
     bool pass_times_open_ = false;

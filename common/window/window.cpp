@@ -303,6 +303,7 @@ class RungWindow {
             readings_are_current_ = true;
         }
         state_.searching_s = search_ ? secondsSince(search_start_) : 0;
+        if (secondsSince(message_start_) > message_length_s_) state_.message.clear();
         state_.can_undo = !found_.empty() && stands(found_.back());
         panel_->draw(settings_, state_);
         attendSearch(size);
@@ -326,7 +327,8 @@ class RungWindow {
             settings_.set(name, value);
         }
         if (!found.empty()) found_.push_back(found);
-        say(answer.text);
+        state_.search_answer = answer.text;
+        print(answer.text);
     }
 
     struct Change {
@@ -348,14 +350,22 @@ class RungWindow {
             text += " --set " + change.setting + "=" + change.before;
         }
         found_.pop_back();
-        say(text);
+        state_.search_answer = text;
+        print(text);
     }
 
-    // In the panel, and for who started the program in a terminal.
+    // For who started the program in a terminal.
+    static void print(const std::string& text) {
+        std::printf("%s\n", text.c_str());
+        std::fflush(stdout);
+    }
+
+    // In the panel too, as long as it takes to read.
     void say(const std::string& message) {
         state_.message = message;
-        std::printf("%s\n", message.c_str());
-        std::fflush(stdout);
+        message_length_s_ = 4 + 0.05 * static_cast<double>(message.size());
+        message_start_ = Clock::now();
+        print(message);
     }
 
     void startSearch(const Budget& budget, glm::ivec2 size) {
@@ -366,9 +376,9 @@ class RungWindow {
         try {
             search_.emplace(budgetCommand(budget, request, given_, headlessContext()));
             search_start_ = Clock::now();
-            state_.message.clear();
+            state_.search_answer.clear();
         } catch (const std::runtime_error& error) {
-            state_.message = error.what(); // as for a frame that cannot be saved
+            state_.search_answer = error.what(); // as for a frame that cannot be saved
         }
     }
 
@@ -425,6 +435,8 @@ class RungWindow {
     std::optional<Process> search_; // for the cheapest settings within a budget
     Clock::time_point search_start_;
     std::vector<std::vector<Change>> found_; // what searches changed and undo takes back, the last at the end
+    Clock::time_point message_start_;
+    double message_length_s_ = 0;
     bool save_asked_ = false;
     bool drags_divider_ = false;
     double cursor_x_ = 0;
