@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <gtest/gtest.h>
+#include <iterator>
 
 namespace gll::stability {
 namespace {
