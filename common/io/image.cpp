@@ -1,8 +1,9 @@
-// Reads and writes images through OpenImageIO, which never sees a file that has not passed the checks here:
-// it accepts headers of 100000x100000 and of negative sizes, and would open any of its thirty formats.
+// Reads images and writes them. OpenImageIO decodes PNG, JPEG and EXR and never sees a file that has not
+// passed through here: it accepts headers of any size, acts on metadata, and would open any of its thirty
+// formats.
 #include "io/image.hpp"
 
-#include "io/files.hpp"
+#include "io/image_read.hpp"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -10,11 +11,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <charconv>
 #include <cstdio>
 #include <limits>
 #include <memory>
 #include <new>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -26,119 +27,24 @@ namespace {
 
 using namespace std::string_view_literals;
 
-enum class Format { png, jpeg, hdr, exr };
+enum class Format { png, jpeg, hdr, exr, bmp, tga };
 
-// OpenImageIO's names of the readers, in the order of Format.
-constexpr std::array reader_names = {"png", "jpeg", "hdr", "openexr"};
-
-// No header comes near this; it bounds the search for the end of one.
-constexpr std::size_t max_hdr_header_bytes = 65536;
+// OpenImageIO's names, in the order of Format, of those that it reads or writes here.
+constexpr std::array oiio_names = {"png", "jpeg", "hdr", "openexr"};
 
 Format formatOf(std::string_view bytes, const std::string& name) {
     if (bytes.empty()) throw fileError(name, "is empty, export it again");
     if (bytes.starts_with("\x89PNG\r\n\x1a\n"sv)) return Format::png;
     if (bytes.starts_with("\xff\xd8\xff"sv)) return Format::jpeg;
     if (bytes.starts_with("\x76\x2f\x31\x01"sv)) return Format::exr;
-    if (bytes.starts_with("#?RADIANCE\n"sv) || bytes.starts_with("#?RGBE\n"sv)) return Format::hdr;
-    throw fileError(name, "is no PNG, JPEG, Radiance HDR or EXR image, convert it to one");
-}
-
-void checkSize(long long width, long long height, std::size_t bytes_per_pixel, const std::string& name) {
-    const std::string size = std::to_string(width) + "x" + std::to_string(height);
-    if (width < 1 || height < 1 || width > max_image_extent || height > max_image_extent)
-        throw fileError(name, "claims " + size + " pixels, sides of 1 to " +
-                                  std::to_string(max_image_extent) + " are read; the file may be damaged");
-    if (static_cast<std::size_t>(width * height) > max_image_bytes / bytes_per_pixel)
-        throw fileError(name, size + " pixels need more than " + std::to_string(max_image_bytes >> 20) +
-                                  " MiB, scale the image down");
-}
-
-// The text before the pixels of a Radiance file: OpenImageIO keeps neither the orientation nor XYZ apart.
-void checkHdrHeader(std::string_view bytes, const std::string& name) {
-    const std::string_view head = bytes.substr(0, max_hdr_header_bytes);
-    std::size_t begin = 0;
-    bool settings_ended = false;
-    while (begin < head.size()) {
-        const std::size_t end = head.find('\n', begin);
-        if (end == std::string_view::npos) break;
-        const std::string_view line = head.substr(begin, end - begin);
-        begin = end + 1;
-        if (!settings_ended) {
-            if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe")
-                throw fileError(name, "stores other than RGBE pixels, convert it to 32-bit_rle_rgbe");
-            settings_ended = line.empty();
-            continue;
-        }
-        std::array<int, 2> extent{}; // height, width
-        std::string_view rest = line;
-        for (std::size_t axis = 0; axis < 2; ++axis) {
-            const std::string_view mark = axis == 0 ? "-Y " : " +X ";
-            if (!rest.starts_with(mark))
-                throw fileError(name, "has the size line '" + std::string(line.substr(0, 40)) +
-                                          "', only '-Y height +X width' is read; store it upright");
-            rest.remove_prefix(mark.size());
-            const auto number = std::from_chars(rest.data(), rest.data() + rest.size(), extent[axis]);
-            if (number.ec != std::errc()) extent[axis] = -1;
-            rest.remove_prefix(static_cast<std::size_t>(number.ptr - rest.data()));
-        }
-        const auto [height, width] = extent;
-        checkSize(width, height, 3 * sizeof(float), name);
-        // The shortest row is runs of at most 127 equal bytes in each of four channels, two bytes a run.
-        const std::size_t shortest_row_bytes = width < 8
-                                                   ? static_cast<std::size_t>(width) * 4
-                                                   : 4 + 8 * ((static_cast<std::size_t>(width) + 126) / 127);
-        if ((bytes.size() - begin) / shortest_row_bytes < static_cast<std::size_t>(height))
-            throw fileError(name, "ends before its last row, fetch it again");
-        return;
-    }
-    throw fileError(name, "ends inside its header, fetch it again");
-}
-
-// libjpeg fills what a truncated file lacks with grey and calls that a warning, so look for the end marker:
-// walk the segments up to the first scan, then the scan's bytes, in which 0xff is followed by 0 or a restart
-// marker.
-void checkJpegEnds(std::string_view bytes, const std::string& name) {
-    std::size_t at = 2;
-    while (at + 4 <= bytes.size()) {
-        const auto byteAt = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
-        if (byteAt(at) != 0xff) { // inside a scan, or padding: on to the next marker
-            at = std::min(bytes.find('\xff', at), bytes.size());
-            continue;
-        }
-        const unsigned marker = byteAt(at + 1);
-        if (marker == 0xd9) return;
-        if (marker == 0xff) { // fill byte
-            ++at;
-        } else if (marker == 0 || marker == 1 || (marker >= 0xd0 && marker <= 0xd8)) {
-            at += 2;
-        } else {
-            at += 2 + std::max<std::size_t>(2, std::size_t(byteAt(at + 2)) << 8 | byteAt(at + 3));
-        }
-    }
-    if (bytes.ends_with("\xff\xd9"sv)) return;
-    throw fileError(name, "ends before its last row, fetch it again");
-}
-
-// libpng reports truncated files and impossible sizes on stderr as well; what passes here is neither.
-void checkPng(std::string_view bytes, const std::string& name) {
-    const auto bigEndian32 = [&](std::size_t at) {
-        std::size_t value = 0;
-        for (std::size_t i = 0; i < 4; ++i)
-            value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
-        return value;
-    };
-    std::size_t at = 8;
-    while (at + 12 <= bytes.size()) { // length, type, checksum: four bytes each
-        const std::size_t length = bigEndian32(at);
-        if (length > bytes.size() - at - 12) break;
-        const std::string_view type = bytes.substr(at + 4, 4);
-        if (type == "IHDR" && length >= 8)
-            checkSize(static_cast<long long>(bigEndian32(at + 8)),
-                      static_cast<long long>(bigEndian32(at + 12)), 1, name);
-        if (type == "IEND") return;
-        at += 12 + length;
-    }
-    throw fileError(name, "ends before its last row, fetch it again");
+    if (bytes.starts_with("#?"sv)) return Format::hdr;
+    if (bytes.starts_with("BM"sv)) return Format::bmp;
+    std::string extension = std::filesystem::path(name).extension().string();
+    for (char& c : extension)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    if (extension == ".tga") return Format::tga; // the one without a mark of its own
+    throw fileError(name,
+                    "is no PNG, JPEG, Radiance HDR, EXR, BMP or (named .tga) TGA image, convert it to one");
 }
 
 // The libraries' complaints, some of several lines, as one line in brackets; nothing when there is none.
@@ -146,69 +52,138 @@ std::string inBrackets(const std::string& complaint) {
     return complaint.empty() ? "" : " (" + complaint.substr(0, complaint.find('\n')) + ")";
 }
 
-template <typename Sample>
-std::vector<Sample> readPixels(OIIO::ImageInput& input, const OIIO::ImageSpec& spec,
-                               const std::string& name) {
-    std::vector<Sample> samples(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
-                                static_cast<std::size_t>(spec.nchannels));
-    constexpr OIIO::TypeDesc sample_type(OIIO::BaseTypeFromC<Sample>::value);
-    const bool whole = input.read_image(0, 0, 0, spec.nchannels, sample_type, samples.data());
-    const std::string complaint = input.geterror();
-    if (!whole || !complaint.empty())
-        throw fileError(name, "does not decode whole, fetch or export it again" + inBrackets(complaint));
-    return samples;
-}
-
-// A layered or luminance-chroma EXR would pass as RGB by its number of channels alone.
-void checkExrSpec(const OIIO::ImageSpec& spec, const std::string& name) {
-    if (spec.deep) throw fileError(name, "is a deep EXR, flatten it");
-    for (int i = 0; i < spec.nchannels; ++i) {
-        const OIIO::TypeDesc type = spec.channelformat(i);
-        const std::string channel(spec.channel_name(i));
-        if (type != OIIO::TypeDesc::HALF && type != OIIO::TypeDesc::FLOAT)
-            throw fileError(name, "channel '" + channel + "' is not half or float, export it as one");
-        if (spec.nchannels >= 3 && channel != std::string(1, "RGBA"[i]))
-            throw fileError(name, "channel '" + channel + "' where R, G, B, A are read, export only those");
+// An open file in memory. The bytes must outlive it.
+class Input {
+  public:
+    Input(Format format, std::string& bytes, const std::string& name)
+        : memory_(bytes.data(), bytes.size()), name_(name),
+          input_(OIIO::ImageInput::create(oiio_names[static_cast<std::size_t>(format)])) {
+        if (!input_ || !input_->set_ioproxy(&memory_))
+            throw fileError(name, "this OpenImageIO lacks the reader for it, install one that has it");
+        OIIO::ImageSpec config;
+        config.attribute("oiio:UnassociatedAlpha", 1); // alpha stays beside the color, as the file has it
+        OIIO::ImageSpec first;
+        if (!input_->open(name, first, config))
+            throw fileError(name,
+                            "does not decode, fetch or export it again" + inBrackets(input_->geterror()));
     }
-}
 
-Image decode(std::string_view bytes, const std::string& name) {
-    const Format format = formatOf(bytes, name);
-    if (format == Format::hdr) checkHdrHeader(bytes, name);
-    if (format == Format::jpeg) checkJpegEnds(bytes, name);
-    if (format == Format::png) checkPng(bytes, name);
+    OIIO::ImageSpec spec(int part) { return input_->spec(part, 0); }
 
-    OIIO::Filesystem::IOMemReader memory(const_cast<char*>(bytes.data()), bytes.size()); // it only reads
-    const std::unique_ptr<OIIO::ImageInput> input =
-        OIIO::ImageInput::create(reader_names[static_cast<std::size_t>(format)]);
-    if (!input || !input->set_ioproxy(&memory))
-        throw fileError(name, "this OpenImageIO lacks the reader for it, install one that has it");
-    OIIO::ImageSpec config;
-    config.attribute("oiio:UnassociatedAlpha", 1); // alpha stays beside the colour, as the file has it
-    OIIO::ImageSpec spec;
-    if (!input->open(name, spec, config))
-        throw fileError(name, "does not decode, fetch or export it again" + inBrackets(input->geterror()));
+    // Some of the channels of all pixels of a part, at its full resolution.
+    template <typename Sample>
+    std::vector<Sample> read(int part, int first_channel, int end_channel) {
+        const OIIO::ImageSpec size = spec(part);
+        std::vector<Sample> samples(static_cast<std::size_t>(size.width) *
+                                    static_cast<std::size_t>(size.height) *
+                                    static_cast<std::size_t>(end_channel - first_channel));
+        constexpr OIIO::TypeDesc sample_type(OIIO::BaseTypeFromC<Sample>::value);
+        const bool whole =
+            input_->read_image(part, 0, first_channel, end_channel, sample_type, samples.data());
+        const std::string complaint = input_->geterror();
+        if (!whole || !complaint.empty())
+            throw fileError(name_, "does not decode whole, fetch or export it again" + inBrackets(complaint));
+        return samples;
+    }
 
+  private:
+    OIIO::Filesystem::IOMemReader memory_;
+    const std::string& name_;
+    std::unique_ptr<OIIO::ImageInput> input_;
+};
+
+Image decodePngOrJpeg(Format format, CleanFile file, const std::string& name) {
+    Input input(format, file.bytes, name);
+    const OIIO::ImageSpec spec = input.spec(0);
     if (spec.nchannels < 1 || spec.nchannels > 4)
         throw fileError(name, "has " + std::to_string(spec.nchannels) + " channels, 1 to 4 are read");
-    if (spec.depth != 1) throw fileError(name, "is a volume, only flat images are read");
     const bool eight_bits = spec.format == OIIO::TypeDesc::UINT8;
     checkSize(spec.width, spec.height,
               static_cast<std::size_t>(spec.nchannels) * (eight_bits ? sizeof(std::uint8_t) : sizeof(float)),
               name);
-    if (format == Format::exr) checkExrSpec(spec, name);
-
     Image image;
     image.width = spec.width;
     image.height = spec.height;
     image.channels = spec.nchannels;
-    const bool display_format = format == Format::png || format == Format::jpeg;
-    image.color_space = display_format ? ColorSpace::srgb : ColorSpace::linear;
+    image.color_space = ColorSpace::srgb;
+    image.warnings = std::move(file.warnings);
     if (eight_bits)
-        image.pixels = readPixels<std::uint8_t>(*input, spec, name);
+        image.pixels = input.read<std::uint8_t>(0, 0, spec.nchannels);
     else
-        image.pixels = readPixels<float>(*input, spec, name);
+        image.pixels = input.read<float>(0, 0, spec.nchannels);
     return image;
+}
+
+// The picture is the display window. Where the file has no pixels for it, they are 0, alpha too.
+Image decodeExr(CleanExr exr, const std::string& name) {
+    Input input(Format::exr, exr.bytes, name);
+    const OIIO::ImageSpec spec = input.spec(exr.part);
+    std::vector<int> channels; // which of the file's, in the picture's order
+    for (const std::string& channel : exr.channels)
+        channels.push_back(spec.channelindex(channel));
+    const auto [first, last] = std::minmax_element(channels.begin(), channels.end());
+    if (spec.deep || spec.width != exr.data.width() || spec.height != exr.data.height() || *first < 0)
+        throw fileError(name, "its header is read in two ways, export it again");
+    const auto stored_channels = static_cast<std::size_t>(*last - *first + 1);
+    checkSize(spec.width, spec.height, stored_channels * sizeof(float), name);
+    checkSize(exr.display.width(), exr.display.height(), channels.size() * sizeof(float), name);
+    const std::vector<float> stored = input.read<float>(exr.part, *first, *last + 1);
+
+    Image image;
+    image.width = exr.display.width();
+    image.height = exr.display.height();
+    image.channels = static_cast<int>(channels.size());
+    image.color_space = ColorSpace::linear;
+    image.cube_map = exr.cube_map;
+    image.warnings = std::move(exr.warnings);
+    std::vector<float> pixels(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
+                              channels.size());
+    const int left = std::max(exr.data.left, exr.display.left);
+    const int right = std::min(exr.data.right, exr.display.right);
+    for (int y = std::max(exr.data.top, exr.display.top); y <= std::min(exr.data.bottom, exr.display.bottom);
+         ++y)
+        for (int x = left; x <= right; ++x) {
+            const auto pixelOf = [&](const PixelWindow& window) {
+                return static_cast<std::size_t>(y - window.top) * static_cast<std::size_t>(window.width()) +
+                       static_cast<std::size_t>(x - window.left);
+            };
+            const float* from = stored.data() + pixelOf(exr.data) * stored_channels;
+            float* to = pixels.data() + pixelOf(exr.display) * channels.size();
+            for (const int channel : channels)
+                *to++ = from[channel - *first];
+        }
+
+    if (exr.primaries && image.channels >= 3 && !nearlyEqual(*exr.primaries, bt709_primaries)) {
+        try {
+            transform(pixels, image.channels,
+                      nearlyEqual(*exr.primaries, xyz_primaries) ? bt709FromXyz()
+                                                                 : bt709From(*exr.primaries));
+        } catch (const std::invalid_argument& error) {
+            throw fileError(name,
+                            "its chromaticities are " + std::string(error.what()) + ", export it again");
+        }
+    }
+    image.pixels = std::move(pixels);
+    return image;
+}
+
+Image decode(std::string_view bytes, const std::string& name) {
+    const Format format = formatOf(bytes, name);
+    switch (format) {
+    case Format::png:
+        return decodePngOrJpeg(format, cleanPng(bytes, name), name);
+    case Format::jpeg:
+        return decodePngOrJpeg(format, cleanJpeg(bytes, name), name);
+    case Format::exr:
+        return decodeExr(cleanExr(bytes, name), name);
+    case Format::hdr:
+        return decodeHdr(bytes, name);
+    case Format::bmp:
+        return decodeBmp(bytes, name);
+    case Format::tga:
+        break;
+    }
+    return decodeTga(bytes, name);
 }
 
 // What OpenImageIO and its libraries throw of their own carries no file name.
@@ -271,7 +246,7 @@ std::vector<unsigned char> encode(Format format, const Image& image, bool full_f
     std::vector<unsigned char> bytes;
     OIIO::Filesystem::IOVecOutput memory(bytes);
     const std::unique_ptr<OIIO::ImageOutput> output =
-        OIIO::ImageOutput::create(reader_names[static_cast<std::size_t>(format)]);
+        OIIO::ImageOutput::create(oiio_names[static_cast<std::size_t>(format)]);
     if (!output || !output->set_ioproxy(&memory))
         throw fileError(name, "this OpenImageIO lacks the writer for it, install one that has it");
     const void* pixels =

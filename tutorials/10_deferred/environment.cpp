@@ -20,6 +20,9 @@ const std::vector<float>& floatsOf(const Image& image) { return std::get<std::ve
 Image usable(Image image, const std::filesystem::path& path) {
     if (!std::holds_alternative<std::vector<float>>(image.pixels))
         throw std::runtime_error(path.string() + ": an environment must be .hdr or .exr, in linear light");
+    if (image.cube_map)
+        throw std::runtime_error(path.string() + ": is a cube map (envmap=cube), convert it to latitude and "
+                                                 "longitude, one picture twice as wide as high");
     const auto& from = floatsOf(image);
     const auto channels = static_cast<std::size_t>(image.channels);
     std::vector<float> to;

@@ -2,6 +2,8 @@
 // trouble. The list grows: what once crashed a reader stays here.
 #include "io/image.hpp"
 
+#include "exr_maker.hpp"
+#include "jpeg_maker.hpp"
 #include "png_maker.hpp"
 #include "test_files.hpp"
 
@@ -66,7 +68,7 @@ TEST(HostileImage, WhatIsNoFileIsNotOpened) {
 TEST(HostileImage, OtherFormatsAreRefusedWhateverTheirName) {
     const TemporaryFolder folder;
     refuses(folder, "", {"is empty"});
-    refuses(folder, "\x89", {"is no PNG, JPEG, Radiance HDR or EXR"});
+    refuses(folder, "\x89", {"is no PNG, JPEG, Radiance HDR, EXR, BMP"});
     refuses(folder, "GIF89a\x01\0\x01\0\0\0\0;"s, {"is no PNG"});
     refuses(folder, "II*\0\x08\0\0\0\0\0\0\0\0\0"s, {"is no PNG"});
     refuses(folder, "P6 1 1 255\nabc", {"is no PNG"});
@@ -86,18 +88,40 @@ TEST(HostileImage, FilesCutOffAnywhereAreRefused) {
 
 TEST(HostileImage, ATruncatedJpegIsNotFilledWithGrey) {
     const TemporaryFolder folder;
-    // 8x8 grey, all coefficients zero; made by hand from the JPEG specification's baseline segments.
-    const std::string quantisation = "\xff\xdb\x00\x43\x00"s + std::string(64, '\x01');
-    const std::string frame = "\xff\xc0\x00\x0b\x08\x00\x08\x00\x08\x01\x01\x11\x00"s;
-    const std::string dc = "\xff\xc4\x00\x14\x00\x01"s + std::string(15, '\0') + "\0"s;
-    const std::string ac = "\xff\xc4\x00\x14\x10\x01"s + std::string(15, '\0') + "\0"s;
-    const std::string scan =
-        "\xff\xda\x00\x08\x01\x01\x00\x00\x3f\x00\x3f"s; // codes '0' '0', filled up with ones
-    const std::string head = "\xff\xd8"s + quantisation + frame + dc + ac + scan;
+    const std::string head = jpegWithoutEnd(1);
     const Image image = loadImage(folder.write("good.jpg", head + "\xff\xd9"));
     EXPECT_EQ(std::get<std::vector<std::uint8_t>>(image.pixels), std::vector<std::uint8_t>(64, 128));
     for (std::size_t length = 3; length <= head.size(); ++length)
         refuses(folder, head.substr(0, length), {"ends before its last row"});
+}
+
+TEST(HostileImage, JpegsOfOtherKindsAreNamed) {
+    const TemporaryFolder folder;
+    refuses(folder, jpegWithoutEnd(1, "", 0xc3) + "\xff\xd9", {"lossless"});
+    std::string twelve_bits = jpeg(1);
+    twelve_bits[twelve_bits.find("\xff\xc0") + 4] = 12;
+    refuses(folder, twelve_bits, {"12 bits"});
+    std::string huge = jpeg(1);
+    huge.replace(huge.find("\xff\xc0") + 5, 4, "\xff\xff\xff\xff");
+    refuses(folder, huge, {"65535x65535"});
+    std::string no_height = jpeg(1);
+    no_height.replace(no_height.find("\xff\xc0") + 5, 2, "\0\0"s);
+    refuses(folder, no_height, {"8x0"});
+}
+
+TEST(HostileImage, AProgressiveJpegOfAThousandScansIsNotGoneThrough) {
+    const TemporaryFolder folder;
+    const std::string size = "\x20\0\x20\0"s; // 8192x8192
+    std::string bytes = "\xff\xd8" + jpegSegment(0xc2, "\x08" + size + "\x01\x01\x11\0"s);
+    for (int i = 0; i < 1000; ++i)
+        bytes += jpegSegment(0xda, "\x01\x01\0\0\0\0"s) + "\x7f";
+    refuses(folder, bytes + "\xff\xd9", {"too many scans"});
+}
+
+TEST(HostileImage, APngThatNeedsAnUnknownChunkSaysWhich) {
+    const TemporaryFolder folder;
+    refuses(folder, png(1, 1, 8, 0, "\0\1"s, pngChunk("CgBI", "abcd")), {"'CgBI'"});
+    refuses(folder, png(1, 1, 8, 0, "\0\1"s, pngChunk("iCCP", std::string(100, 'x'))), {"'iCCP'"});
 }
 
 TEST(HostileImage, SizesOutsideTheLimitsAreRefusedBeforeMemoryIsAskedFor) {
@@ -132,14 +156,172 @@ TEST(HostileImage, AnExrWithAHugeDataWindowIsRefused) {
     refuses(folder, negative, {"bad"});
 }
 
+TEST(HostileImage, ExrsThatHoldNoPictureSayWhatTheyHold) {
+    const TemporaryFolder folder;
+    ExrPart part;
+    constexpr std::uint32_t deep = 0x800;
+    refuses(folder, exr({part}, deep), {"deep", "flatten"});
+    part.channels = {"BY", "RY", "Y"};
+    refuses(folder, exr({part}), {"luminance and chroma", "RY"});
+    part.sampling = 2;
+    refuses(folder, exr({part}), {"luminance and chroma"});
+    part.channels = {"Y"};
+    refuses(folder, exr({part}), {"'Y'", "subsampled"});
+    part.sampling = 1;
+    part.channels = {"N.x", "N.y", "Z"};
+    refuses(folder, exr({part}), {"'N.x', 'N.y', 'Z'", "neither R, G, B nor Y"});
+    part.channels = {"Y"};
+    part.channel_type = 0;
+    refuses(folder, exr({part}), {"'Y'", "not half or float"});
+    part.channel_type = 3;
+    refuses(folder, exr({part}), {"'Y'", "no known type"});
+    part.channels = {};
+    refuses(folder, exr({part}), {"no channels"});
+    ExrPart left, right;
+    left.name = "a";
+    right.name = "b";
+    left.type = right.type = "deepscanline";
+    refuses(folder, exr({left, right}), {"deep"});
+}
+
+TEST(HostileImage, ExrHeadersThatLieAreRefusedBeforeOpenExrSeesThem) {
+    const TemporaryFolder folder;
+    ExrPart part;
+    const std::string good = exr({part});
+    const auto withPart = [](auto&& change) {
+        ExrPart changed;
+        change(changed);
+        std::string header = "\x76\x2f\x31\x01" + littleEndian(2 | (changed.tile > 0 ? 0x200 : 0), 4);
+        changed.data = changed.display = {0, 0, 0, 0}; // its pixels are of no matter
+        return header + changed.header(false);
+    };
+    for (const char* key : {"channels", "dataWindow", "displayWindow"}) {
+        std::string lacking = good;
+        lacking[lacking.find(key)] = 'x';
+        refuses(folder, lacking, {key});
+        refuses(folder, withPart([&](ExrPart& p) { p.more = exrAttribute(key, "int", int32Bytes(0)); }),
+                {key});
+    }
+    refuses(folder, withPart([](ExrPart& p) { p.more = exrAttribute("a", "", ""); }), {"'a'"});
+    for (const auto& [side, claimed] :
+         {std::pair(-1, "4294967295x1"), {0, "0x1"}, {0x7fffffff, "2147483647x1"}}) {
+        std::string tiled = withPart([](ExrPart& p) { p.tile = 1; });
+        tiled.replace(tiled.find("tiledesc") + 13, 4, int32Bytes(side));
+        refuses(folder, tiled, {"a tile", claimed});
+    }
+    refuses(folder, good.substr(0, 4) + littleEndian(3, 4) + good.substr(8), {"unknown version"});
+    refuses(folder, good.substr(0, 4) + littleEndian(0x2002, 4) + good.substr(8), {"unknown version"});
+
+    part.data = {0, 0, 16383, 16383};
+    part.tile = 1;
+    std::string tiny_tiles = "\x76\x2f\x31\x01" + littleEndian(0x202, 4);
+    ExrPart one = part;
+    one.data = one.display;
+    tiny_tiles += one.header(false);
+    const std::size_t window = tiny_tiles.find("dataWindow\0box2i\0"s) + 21;
+    tiny_tiles.replace(window + 8, 8, int32Bytes(4095) + int32Bytes(4095));
+    refuses(folder, tiny_tiles, {"last tile"});
+    std::string far = good;
+    const std::size_t place = far.find("dataWindow\0box2i\0"s) + 21;
+    far.replace(place, 4, int32Bytes(-2147483647 - 1));
+    refuses(folder, far, {"dataWindow", "too far out"});
+    std::string chromaticities;
+    for (int i = 0; i < 8; ++i)
+        chromaticities += floatBytes(0.3F);
+    ExrPart colorless;
+    colorless.more = exrAttribute("chromaticities", "chromaticities", chromaticities);
+    refuses(folder, exr({colorless}), {"chromaticities", "no colors"});
+    colorless.more = exrAttribute("chromaticities", "chromaticities", "abc");
+    refuses(folder, exr({colorless}), {"ends inside its header"});
+    std::vector<ExrPart> many(300);
+    for (std::size_t i = 0; i < many.size(); ++i)
+        many[i].name = std::to_string(i);
+    refuses(folder, exr(many), {"256 parts"});
+}
+
 TEST(HostileImage, HdrHeadersThatMeanSomethingElseAreRefused) {
     const TemporaryFolder folder;
-    refuses(folder, "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\nabcd", {"RGBE"});
-    refuses(folder, hdr("+Y 1 +X 1", "abcd"), {"'+Y 1 +X 1'", "-Y height +X width"});
-    refuses(folder, hdr("+X 1 -Y 1", "abcd"), {"-Y height +X width"});
+    refuses(folder, "#?RADIANCE\nFORMAT=32-bit_spectrum\n\n-Y 1 +X 1\nabcd",
+            {"'32-bit_spectrum'", "32-bit_rle_rgbe"});
+    refuses(folder, hdr("+Y 1 +Y 1", "abcd"), {"'+Y 1 +Y 1'", "-Y height +X width"});
+    refuses(folder, hdr("1 1", "abcd"), {"-Y height +X width"});
     refuses(folder, hdr("", ""), {"-Y height +X width"});
     refuses(folder, "#?RADIANCE\n", {"ends inside its header"});
     refuses(folder, "#?RADIANCE\n" + std::string(200000, 'x'), {"ends inside its header"});
-    refuses(folder, hdr("-Y 1 +X 8", "\x02\x02\x00\x07\x88\x80\x88\x80\x88\x80\x88\x80"s), {"bad"});
-    refuses(folder, hdr("-Y 1 +X 8", "\x02\x02\x00\x08\xff\x80\xff\x80\xff\x80\xff\x80"s), {"bad"});
+    for (const char* line :
+         {"EXPOSURE=", "EXPOSURE=a", "EXPOSURE=0", "EXPOSURE=-1", "EXPOSURE=nan", "EXPOSURE=1e40",
+          "COLORCORR=1 1", "COLORCORR=1 0 1", "PRIMARIES=1 2 3", "PIXASPECT=x"})
+        refuses(folder, "#?RADIANCE\n"s + line + "\n\n-Y 1 +X 1\nabcd", {line});
+    refuses(folder, "#?RADIANCE\nPRIMARIES=1 1 1 1 1 1 1 1\n\n-Y 1 +X 1\nabcd", {"PRIMARIES"});
+}
+
+TEST(HostileImage, HdrRunsPastTheirLineAreRefused) {
+    const TemporaryFolder folder;
+    refuses(folder, hdr("-Y 1 +X 8", "\x02\x02\x00\x07\x88\x80\x88\x80\x88\x80\x88\x80"s),
+            {"a line of 7 pixels in 8"});
+    refuses(folder, hdr("-Y 1 +X 8", "\x02\x02\x00\x08\xff\x80\xff\x80\xff\x80\xff\x80"s),
+            {"run past its line"});
+    refuses(folder, hdr("-Y 1 +X 8", "\x02\x02\x00\x08\x00\x00\x00\x00\x00\x00\x00\x00"s),
+            {"run past its line"});
+    refuses(folder, hdr("-Y 1 +X 8", "\x01\x01\x01\x08\x00\x00\x00\x00"s), {"before its first"});
+    refuses(folder, hdr("-Y 1 +X 3", "\x01\x01\x01\x03\x00\x00\x00\x00"s), {"past its line"});
+    refuses(folder, hdr("-Y 1 +X 9", "\x05\x01\x01\x80\x01\x01\x01\x09"s), {"past its line"});
+    const std::string nothing = "\x01\x01\x01\x00"s; // as often as one likes: 0 pixels each
+    std::string idle = "\x05\x01\x01\x80";
+    for (int i = 0; i < 3; ++i)
+        idle += nothing;
+    refuses(folder, hdr("-Y 1 +X 9", idle + "\x01\x01\x01\x01"), {"past its line"});
+    refuses(folder, hdr("-Y 1 +X 9", idle), {"before its last row"});
+}
+
+TEST(HostileImage, TgasAndBmpsThatLieAreRefused) {
+    const TemporaryFolder folder;
+    const auto refusesTga = [&](const std::string& bytes, std::initializer_list<std::string_view> parts) {
+        const auto path = folder.write("bad.tga", bytes);
+        expectError(path, parts, [&] { loadImage(path); });
+    };
+    const auto tga = [](int map, int type, const std::string& map_info, const std::string& size, int bits) {
+        return "\0"s + static_cast<char>(map) + static_cast<char>(type) + map_info + "\0\0\0\0"s + size +
+               static_cast<char>(bits) + '\0';
+    };
+    const std::string none = "\0\0\0\0\0"s;
+    const std::string one = "\1\0\1\0"s;
+    refusesTga(tga(0, 2, none, one, 24) + "ab", {"before its last row"});
+    refusesTga(tga(0, 10, none, one, 24) + "\x80"
+                                           "ab",
+               {"before its last row"});
+    refusesTga(tga(0, 2, none, "\xff\xff\xff\xff", 24) + "abc", {"65535x65535"});
+    refusesTga(tga(0, 2, none, "\0\0\1\0"s, 24) + "abc", {"0x1"});
+    refusesTga(tga(0, 2, none, "\0\x20\0\x20"s, 24) + "abc", {"before its last row"});
+    refusesTga(tga(0, 2, none, one, 8) + "abc", {"type 2, 8 bits"});
+    refusesTga(tga(0, 32, none, one, 8) + "abc", {"type 32"});
+    refusesTga(tga(0, 1, none, one, 8) + "abc", {"type 1"});
+    refusesTga(tga(1, 1, "\0\0\1\0\x18"s, one, 8) + "abc\1", {"color 1 of a palette of 1"});
+    refusesTga(tga(1, 1, "\0\0\xff\xff\x18"s, one, 8) + "abc\0"s, {"before its last row"});
+    refuses(folder, tga(0, 2, none, one, 24) + "abc", {"named .tga"}); // by its name only
+
+    const auto bmp = [](int width, int height, int bits, int compression, int colors,
+                        const std::string& rest) {
+        return "BM"s + std::string(8, '\0') + littleEndian(54, 4) + littleEndian(40, 4) + int32Bytes(width) +
+               int32Bytes(height) + "\1\0"s + littleEndian(static_cast<std::uint64_t>(bits), 2) +
+               int32Bytes(compression) + std::string(12, '\0') + int32Bytes(colors) + "\0\0\0\0"s + rest;
+    };
+    refuses(folder, "BM", {"before its last row"});
+    refuses(folder, bmp(1, 1, 24, 0, 0, "ab"), {"before its last row"});
+    refuses(folder, bmp(1, -2147483647 - 1, 24, 0, 0, "abcd"), {"1x2147483648"});
+    refuses(folder, bmp(-1, 1, 24, 0, 0, "abcd"), {"-1x1"});
+    refuses(folder, bmp(8192, 8192, 24, 0, 0, "abcd"), {"before its last row"});
+    refuses(folder, bmp(1, 1, 24, 1, 0, "abcd"), {"24 bits with compression 1"});
+    refuses(folder, bmp(1, 1, 0, 5, 0, "abcd"), {"compression 5"});
+    refuses(folder, bmp(1, -1, 8, 1, 2, "abcdabcd"), {"compression 1"});
+    refuses(folder, bmp(1, 1, 8, 0, 257, std::string(2000, 'a')), {"palette of 257"});
+    refuses(folder, bmp(1, 1, 8, 0, -1, std::string(2000, 'a')), {"palette of 4294967295"});
+    refuses(folder, bmp(1, 1, 8, 0, 1, "abcd"),
+            {"palette of 1"}); // its pixels begin at its palette: index 97
+    refuses(folder, bmp(1, 1, 8, 1, 1, "\5\0\1\0"s), {"run past its picture"});
+    std::string unknown = bmp(1, 1, 24, 0, 0, "abcd");
+    unknown[14] = 20;
+    refuses(folder, unknown, {"unknown version"});
+    unknown[17] = '\x7f';
+    refuses(folder, unknown, {"before its last row"});
 }

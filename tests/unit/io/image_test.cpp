@@ -2,6 +2,7 @@
 // Broken files are in tests/hostile.
 #include "io/image.hpp"
 
+#include "jpeg_maker.hpp"
 #include "png_maker.hpp"
 #include "test_files.hpp"
 
@@ -96,6 +97,80 @@ TEST(Image, AGammaChunkDoesNotChangeThePixels) {
     const std::string gamma = pngChunk("gAMA", bigEndian32(100000));
     const Image image = loadImage(folder.write("a.png", png(2, 1, 8, 0, "\0\x40\x80"s, gamma)));
     EXPECT_EQ(bytes(image), (std::vector<std::uint8_t>{64, 128}));
+    ASSERT_EQ(image.warnings.size(), 1u);
+    EXPECT_NE(image.warnings[0].find("a.png: gAMA 1.0"), std::string::npos) << image.warnings[0];
+    const std::string usual = pngChunk("gAMA", bigEndian32(45455));
+    EXPECT_TRUE(loadImage(folder.write("a.png", png(2, 1, 8, 0, "\0\x40\x80"s, usual))).warnings.empty());
+}
+
+TEST(Image, AProfileThatIsNotSrgbIsSaid) {
+    const TemporaryFolder folder;
+    const auto warnings = [&](const std::string& chunks) {
+        return loadImage(folder.write("a.png", png(2, 1, 8, 0, "\0\x40\x80"s, chunks))).warnings;
+    };
+    EXPECT_TRUE(warnings(pngChunk("iCCP", "sRGB IEC61966-2.1\0\0damaged"s)).empty());
+    ASSERT_EQ(warnings(pngChunk("iCCP", "Display P3\0\0damaged"s)).size(), 1u);
+    EXPECT_NE(warnings(pngChunk("iCCP", "Display P3\0\0"s))[0].find("'Display P3'"), std::string::npos);
+    const std::string profile = jpegSegment(0xe2, "ICC_PROFILE\0\1\1Adobe RGB"s);
+    EXPECT_EQ(loadImage(folder.write("a.jpg", jpeg(3, profile))).warnings.size(), 1u);
+}
+
+TEST(Image, TransparencyOfAPaletteOrOfOneColorIsAlpha) {
+    const TemporaryFolder folder;
+    const std::string palette = pngChunk("PLTE", "\x0a\x14\x1e\xff\x80\x01") + pngChunk("tRNS", "\x40");
+    EXPECT_EQ(bytes(loadImage(folder.write("a.png", png(2, 1, 8, 3, "\0\0\1"s, palette)))),
+              (std::vector<std::uint8_t>{10, 20, 30, 64, 255, 128, 1, 255}));
+    const std::string one_grey = pngChunk("tRNS", "\0\x40"s);
+    const Image grey = loadImage(folder.write("b.png", png(2, 1, 8, 0, "\0\x40\x80"s, one_grey)));
+    EXPECT_EQ(grey.channels, 2);
+    EXPECT_EQ(bytes(grey), (std::vector<std::uint8_t>{64, 0, 128, 255}));
+}
+
+TEST(Image, GreyWithAlphaInSixteenBitsKeepsBoth) {
+    const TemporaryFolder folder;
+    const Image image = loadImage(folder.write("a.png", png(1, 1, 16, 4, "\0\x33\x33\0\0"s)));
+    EXPECT_EQ(image.channels, 2);
+    EXPECT_EQ(floats(image), (std::vector<float>{0.2F, 0.0F}));
+}
+
+TEST(Image, AnInterlacedPngHasItsPixelsInPlace) {
+    const TemporaryFolder folder;
+    // Adam7 of 3x2: pass 1 has (0, 0), pass 4 (2, 0), pass 6 (1, 0), pass 7 the row below.
+    const std::string passes = "\0\1"s + "\0\3"s + "\0\2"s + "\0\4\5\6"s;
+    const Image image = loadImage(folder.write("a.png", png(3, 2, 8, 0, passes, "", true)));
+    EXPECT_EQ(bytes(image), (std::vector<std::uint8_t>{1, 2, 3, 4, 5, 6}));
+}
+
+// OpenImageIO 2.4 divides by this number of rows, and reads as many at a time.
+TEST(Image, WordsInAPictureThatOpenImageIoWouldActOnDoNothing) {
+    const TemporaryFolder folder;
+    // A TIFF with RowsPerStrip (278) = 0, as Exif is written in hexadecimal into a text chunk.
+    const std::string exif =
+        "\nexif\n      32\n4578696600004d4d002a000000080001011600040000000100000000"s + "00000000\n";
+    for (const std::string& chunk :
+         {pngChunk("tEXt", "tiff:RowsPerStrip\0"
+                           "0"s),
+          pngChunk("tEXt", "tiff:RowsPerStrip\0"
+                           "2147483647"s),
+          pngChunk("tEXt", "Raw profile type exif\0"s + exif), pngChunk("eXIf", "MM\0\x2a\0\0\0\x8"s),
+          pngChunk("iTXt", "XML:com.adobe.xmp\0\0\0\0\0<x tiff:RowsPerStrip=\"0\"/>"s)}) {
+        const Image image = loadImage(folder.write("a.png", png(2, 1, 16, 0, "\0\0\0\xff\xff"s, chunk)));
+        EXPECT_EQ(floats(image), (std::vector<float>{0, 1}));
+    }
+    const std::string exif_segment =
+        jpegSegment(0xe1, "Exif\0\0MM\0\x2a\0\0\0\x8\0\1\1\x16\0\4\0\0\0\1\0\0\0\0\0\0\0\0"s);
+    for (const std::string& segment : {exif_segment, jpegSegment(0xe1, "Exif"), jpegSegment(0xfe, "")})
+        EXPECT_EQ(bytes(loadImage(folder.write("a.jpg", jpeg(1, segment)))),
+                  std::vector<std::uint8_t>(64, 128));
+}
+
+TEST(Image, AJpegInInksIsTurnedToRgbAndThatIsSaid) {
+    const TemporaryFolder folder;
+    EXPECT_TRUE(loadImage(folder.write("a.jpg", jpeg(3))).warnings.empty());
+    const Image image = loadImage(folder.write("a.jpg", jpeg(4)));
+    EXPECT_EQ(bytes(image), std::vector<std::uint8_t>(192, 64)); // 128 / 255 of 128, ink and black
+    ASSERT_EQ(image.warnings.size(), 1u);
+    EXPECT_NE(image.warnings[0].find("CMYK"), std::string::npos);
 }
 
 TEST(Image, AFullFloatExrReturnsItsPixelsExactlyWithInfinityAndNan) {

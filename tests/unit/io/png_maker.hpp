@@ -25,9 +25,10 @@ inline std::string pngChunk(const std::string& type, const std::string& data) {
 }
 
 // Rows: each a filter byte 0 and the row's samples; at most 65535 bytes. Colour types: 0 grey, 2 RGB, 3
-// palette, 6 RGBA.
+// palette, 4 grey and alpha, 6 RGBA. Interlaced by Adam7, the rows are those of its passes.
 inline std::string png(std::uint32_t width, std::uint32_t height, int bit_depth, int colour_type,
-                       const std::string& rows, const std::string& chunks_before_rows = "") {
+                       const std::string& rows, const std::string& chunks_before_rows = "",
+                       bool interlaced = false) {
     std::uint32_t a = 1; // Adler-32
     std::uint32_t b = 0;
     for (const char c : rows) {
@@ -43,7 +44,7 @@ inline std::string png(std::uint32_t width, std::uint32_t height, int bit_depth,
     std::string header = bigEndian32(width) + bigEndian32(height);
     header += static_cast<char>(bit_depth);
     header += static_cast<char>(colour_type);
-    header += std::string(3, '\0');
+    header += std::string(2, '\0') + (interlaced ? '\1' : '\0');
     return "\x89PNG\r\n\x1a\n" + pngChunk("IHDR", header) + chunks_before_rows + pngChunk("IDAT", stored) +
            pngChunk("IEND", "");
 }
