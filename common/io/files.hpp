@@ -15,10 +15,12 @@ inline std::runtime_error fileError(std::string_view where, std::string_view wha
     return std::runtime_error(std::string(where) + ": " + std::string(what));
 }
 
-// What a message shows of a word from a file, which may be of any length.
+// What a message shows of a word from a file, which may be of any length and hold any bytes.
 inline std::string inQuotes(std::string_view word) {
     std::string result = "'";
-    return result.append(word.substr(0, 80)).append("'");
+    for (const char c : word.substr(0, 80))
+        result += (c >= 0 && c < ' ') || c == '\x7f' ? '?' : c;
+    return result + "'";
 }
 
 // The bytes of a regular file of at most max_bytes. Anything else is never opened (opening a FIFO would

@@ -1,5 +1,6 @@
 // Models, materials and skies that a rung is given and cannot use: said in one line that names the file.
 #include "hostile/hostile.hpp"
+#include "unit/io/exr_maker.hpp"
 
 namespace gll::test {
 namespace {
@@ -33,6 +34,12 @@ TEST(Files, ofAnotherKindAreRefused) {
     expectFileRefused("--mesh", "mesh.stl", "solid\n", {"mesh.stl"});
     expectFileRefused("--environment", "sky.hdr", "not a picture", {"sky.hdr"});
     expectFileRefused("--environment", "sky.exr", "", {"sky.exr"});
+}
+
+TEST(Files, withACubeMapForAnEnvironmentAreRefused) {
+    ExrPart part;
+    part.sized(2, 12).more = exrAttribute("envmap", "envmap", std::string(1, '\1'));
+    expectFileRefused("--environment", "sky.exr", exr({part}), {"sky.exr", "cube map", "envmap=cube"});
 }
 
 TEST(Files, withNothingInThemAreRefused) {

@@ -202,7 +202,7 @@ TEST(HostileImage, ExrHeadersThatLieAreRefusedBeforeOpenExrSeesThem) {
         refuses(folder, withPart([&](ExrPart& p) { p.more = exrAttribute(key, "int", int32Bytes(0)); }),
                 {key});
     }
-    refuses(folder, withPart([](ExrPart& p) { p.more = exrAttribute("a", "", ""); }), {"'a'"});
+    refuses(folder, withPart([](ExrPart& p) { p.more = exrAttribute("a\n\x1b[m", "", ""); }), {"'a??[m'"});
     for (const auto& [side, claimed] :
          {std::pair(-1, "4294967295x1"), {0, "0x1"}, {0x7fffffff, "2147483647x1"}}) {
         std::string tiled = withPart([](ExrPart& p) { p.tile = 1; });
