@@ -150,6 +150,10 @@ Part partOf(const Attributes& attributes, bool tiled, std::size_t file_bytes, co
             ((part.data.width() + width - 1) / width) * ((part.data.height() + height - 1) / height);
         if (static_cast<std::size_t>(count) > file_bytes / 8) // each has an offset
             throw fileError(name, "ends before its last tile, fetch it again");
+        constexpr long long most_tiles = 1 << 18; // the largest picture in tiles of 32x32: a second or so
+        if (count > most_tiles)
+            throw fileError(name, "is cut into " + std::to_string(count) + " tiles, at most " +
+                                      std::to_string(most_tiles) + " are read; export it in larger ones");
     }
     if (const Attribute* count = find("chunkCount", "int"))
         if (numbersOf(*count).little(4) > file_bytes / 8)

@@ -221,6 +221,8 @@ TEST(HostileImage, ExrHeadersThatLieAreRefusedBeforeOpenExrSeesThem) {
     const std::size_t window = tiny_tiles.find("dataWindow\0box2i\0"s) + 21;
     tiny_tiles.replace(window + 8, 8, int32Bytes(4095) + int32Bytes(4095));
     refuses(folder, tiny_tiles, {"last tile"});
+    tiny_tiles.replace(window + 8, 8, int32Bytes(1023) + int32Bytes(511));
+    refuses(folder, tiny_tiles + std::string(8 * 1024 * 512, '\0'), {"524288 tiles", "larger"});
     std::string far = good;
     const std::size_t place = far.find("dataWindow\0box2i\0"s) + 21;
     far.replace(place, 4, int32Bytes(-2147483647 - 1));
