@@ -593,7 +593,10 @@ Command budgetCommand(const Budget& budget, const FrameRequest& request, const R
 }
 
 BudgetAnswer budgetAnswer(const ProcessResult& result) {
-    if (result.exit_code != 0) return {{}, result.err.substr(0, result.err.find('\n'))};
+    if (result.exit_code != 0) { // the last line is the error, those before it are warnings
+        const std::string said = result.err.substr(0, result.err.find_last_not_of('\n') + 1);
+        return {{}, said.substr(said.rfind('\n') + 1)};
+    }
     const nlohmann::json json = nlohmann::json::parse(result.out);
     BudgetAnswer answer;
     for (const auto& [name, value] : json.at("set").items())

@@ -5,9 +5,11 @@
 #include "app/frame.hpp"
 #include "app/resources.hpp"
 #include "app/settings.hpp"
+#include "app/warnings.hpp"
 
 #include <functional>
 #include <memory>
+#include <utility>
 
 namespace gll {
 
@@ -24,6 +26,7 @@ struct RungResources {
     ShaderLibrary& shaders;
     const Resources& files;
     RungFiles given;
+    Warnings& warnings; // what the given files hold and the rung does not draw; valid as long as the rung
 };
 
 // A number that a frame arrived at and that its picture only hints at, such as a metered luminance.
@@ -61,6 +64,7 @@ struct RungInfo {
 // A rung in a context, ready to render. The context must stay current as long as the renderer lives.
 class Renderer {
   public:
+    // Warnings of the files that are read, here and in render(), go to stderr as "NN_name: warning: ...".
     Renderer(Context& context, const RungInfo& info, const RungFiles& given);
 
     // Renders frame number (from 1) at size (pixels, both at least 1) with the present settings. Throws
@@ -72,13 +76,21 @@ class Renderer {
 
     std::vector<std::string> implied() const { return rung_->implied(); }
 
+    // The warnings said since this was last asked, for a window to show.
+    std::vector<std::string> takeWarnings() { return std::exchange(said_, {}); }
+
     const Framebuffer& presented() const { return presented_; }
     const Mesh& fullScreenTriangle() const { return triangle_; }
     ShaderLibrary& shaders() { return shaders_; }
     Context& context() { return context_; }
 
   private:
+    void sayWarnings();
+
     Context& context_;
+    std::string name_; // of the rung
+    Warnings warnings_;
+    std::vector<std::string> said_;
     Resources resources_;
     ShaderLibrary shaders_;
     Mesh triangle_ = Mesh::fullScreenTriangle();

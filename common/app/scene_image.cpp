@@ -33,8 +33,9 @@ std::vector<Value> withColor(const std::vector<Value>& pixels, int channels) {
     return result;
 }
 
-Texture loadTexture(const std::filesystem::path& path) {
+Texture loadTexture(const std::filesystem::path& path, Warnings& warnings) {
     const Image image = loadImage(path);
+    warnings.add(image.warnings);
     TextureDescription description{.size = {image.width, image.height},
                                    .filter = Filter::trilinear,
                                    .levels = levelCount({image.width, image.height})};
@@ -53,8 +54,9 @@ Texture loadTexture(const std::filesystem::path& path) {
 
 } // namespace
 
-SceneImage::SceneImage(ShaderLibrary& shaders, const std::filesystem::path& path) : shaders_(shaders) {
-    if (!path.empty()) picture_.emplace(loadTexture(path));
+SceneImage::SceneImage(const RungResources& resources) : shaders_(resources.shaders) {
+    const std::filesystem::path& path = resources.given.image;
+    if (!path.empty()) picture_.emplace(loadTexture(path, resources.warnings));
 }
 
 void SceneImage::draw(Frame& frame, const std::string& pass, const Framebuffer& target,

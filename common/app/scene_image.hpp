@@ -1,18 +1,16 @@
 // A picture from a file in place of a rung's scene, for trying a method on frames of one's own.
 #pragma once
 
-#include "app/frame.hpp"
-#include "app/resources.hpp"
+#include "app/rung.hpp"
 
-#include <filesystem>
 #include <optional>
 
 namespace gll {
 
 class SceneImage {
   public:
-    // Where the path is empty there is no picture. Throws std::runtime_error as loadImage() does.
-    SceneImage(ShaderLibrary& shaders, const std::filesystem::path& path);
+    // The picture given as --image; without it there is none. Throws std::runtime_error as loadImage() does.
+    explicit SceneImage(const RungResources& resources);
 
     explicit operator bool() const { return picture_.has_value(); }
 

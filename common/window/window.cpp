@@ -163,6 +163,7 @@ class RungWindow {
         glfwSetScrollCallback(context_.window(), onScroll);
         panel_.emplace(context_.window());
         state_.renderer = context_.info().renderer;
+        showWarnings();
     }
 
     void loop() {
@@ -282,11 +283,20 @@ class RungWindow {
         if (times) state_.pass_times = timer_.begin();
         renderer_.render(frame, size, times ? &timer_ : nullptr);
         if (context_.info().is_software) glFinish();
+        showWarnings();
         state_.frame_time_ms = secondsSince(start) * 1e3;
         state_.frame = frame;
         rendered_size_ = size;
         rendered_sets_ = sets_now;
         readings_are_current_ = false;
+    }
+
+    // The first of them: all are on the terminal, and a panel full of them would hide the picture.
+    void showWarnings() {
+        const std::vector<std::string> lines = renderer_.takeWarnings();
+        if (lines.empty()) return;
+        state_.message = "warning: " + lines.front();
+        if (lines.size() > 1) state_.message += "\nand more, on the terminal";
     }
 
     void present(glm::ivec2 size) {

@@ -2,6 +2,8 @@
 #include "hostile/hostile.hpp"
 #include "unit/io/exr_maker.hpp"
 
+#include <algorithm>
+
 namespace gll::test {
 namespace {
 
@@ -58,6 +60,22 @@ TEST(Files, withABrokenMeshAreRefusedByLine) {
 
 TEST(Files, withATextureThatIsMissingAreRefused) {
     expectFileRefused("--floor", "floor.mtl", "newmtl a\nmap_Kd no.png\n", {"floor.mtl:2", "no.png"});
+}
+
+TEST(Files, withAnImageThatCannotBeReadAreDrawnWithoutItAndNamedOnceInABatch) {
+    const TemporaryFolder folder;
+    folder.write("broken.png", "no picture");
+    folder.write("floor.mtl", "newmtl a\nmap_Kd broken.png\n");
+    folder.write("two.jsonl",
+                 "{\"size\": \"8x8\", \"out\": \"a.png\"}\n"
+                 "{\"size\": \"8x8\", \"out\": \"b.png\", \"set\": [\"texture_filter=mipmapped\"]}\n");
+    const Result result = run(rungCommand(folder, {"--floor", "floor.mtl", "--batch", "two.jsonl"}));
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_NE(result.out.find("b.png: frame 60, 8x8"), std::string::npos) << result.out;
+    EXPECT_EQ(result.out.find("warning"), std::string::npos);
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_TRUE(result.err.starts_with("10_deferred: warning: ")) << result.err;
+    EXPECT_NE(result.err.find("broken.png: "), std::string::npos) << result.err;
 }
 
 TEST(Files, whoseHeadersLieAreRefused) {

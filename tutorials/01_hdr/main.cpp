@@ -84,7 +84,7 @@ class Hdr final : public Rung {
     using Options = HdrOptions;
 
     Hdr(RungResources resources, const Options& options)
-        : shaders_(resources.shaders), options_(options), image_(shaders_, resources.given.image) {}
+        : shaders_(resources.shaders), options_(options), image_(resources) {}
 
     void render(Frame& frame) override {
         drawScene(frame, "scene", target("hdr", options_.format.name(), frame.size()));

@@ -63,7 +63,7 @@ class GaussianBloom final : public Rung {
     using Options = GaussianBloomOptions;
 
     GaussianBloom(RungResources resources, const Options& options)
-        : shaders_(resources.shaders), options_(options), image_(shaders_, resources.given.image) {}
+        : shaders_(resources.shaders), options_(options), image_(resources) {}
 
     // excerpt: render
     void render(Frame& frame) override {

@@ -62,7 +62,7 @@ class PyramidBloomRung final : public Rung {
     using Options = PyramidOptions;
 
     PyramidBloomRung(RungResources resources, const Options& options)
-        : shaders_(resources.shaders), options_(options), image_(shaders_, resources.given.image),
+        : shaders_(resources.shaders), options_(options), image_(resources),
           bloom_(shaders_) {}
 
     // excerpt: frame

@@ -201,8 +201,10 @@ std::vector<float> prefilteredLevel(const Image& radiance, int width, int height
     return pixels;
 }
 
-Environment::Environment(const std::filesystem::path& path)
-    : image_(usable(loadImage(path), path)), map_(described(image_, 1), floatsOf(image_)) {}
+Environment::Environment(const std::filesystem::path& path, Warnings& warnings)
+    : image_(usable(loadImage(path), path)), map_(described(image_, 1), floatsOf(image_)) {
+    warnings.add(image_.warnings);
+}
 
 const std::vector<glm::vec3>& Environment::irradiance() {
     if (irradiance_.empty())

@@ -2,6 +2,7 @@
 // glossy reflection. Everything but the picture itself is made when first asked for.
 #pragma once
 
+#include "app/warnings.hpp"
 #include "gl/texture.hpp"
 #include "io/image.hpp"
 
@@ -26,7 +27,7 @@ std::vector<float> prefilteredLevel(const Image& radiance, int width, int height
 
 class Environment {
   public:
-    explicit Environment(const std::filesystem::path& path);
+    Environment(const std::filesystem::path& path, Warnings& warnings);
 
     const Texture& map() const { return map_; }
     const std::vector<glm::vec3>& irradiance();

@@ -94,8 +94,10 @@ class Deferred final : public Rung {
     Deferred(RungResources resources, const Options& options)
         : shaders_(resources.shaders), options_(options),
           scene_(chosen(resources.given.mesh, resources.files, "assets/cat/cat.obj"),
-                 chosen(resources.given.floor, resources.files, "assets/brick/brick.mtl")),
-          environment_(chosen(resources.given.environment, resources.files, "assets/sky/sky.hdr")) {}
+                 chosen(resources.given.floor, resources.files, "assets/brick/brick.mtl"),
+                 resources.warnings),
+          environment_(chosen(resources.given.environment, resources.files, "assets/sky/sky.hdr"),
+                       resources.warnings) {}
 
     void render(Frame& frame) override {
         setUp(frame);

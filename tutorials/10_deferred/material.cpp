@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 #include <glm/common.hpp>
+#include <stdexcept>
 #include <vector>
 
 namespace gll {
@@ -19,12 +20,22 @@ std::uint8_t byteOf(float value) {
 // Images decoded once, however many channels of them are asked for.
 class ImageCache {
   public:
-    // 8-bit pixels of the image; null where the source is empty.
+    explicit ImageCache(Warnings& warnings) : warnings_(warnings) {}
+
+    // 8-bit pixels of the image; null where the source is empty or cannot be read.
     const Image* get(const ImageSource& source) {
         if (source.empty()) return nullptr;
         for (const auto& [known, image] : images_)
-            if (known == source) return &image;
-        Image image = loadImage(source);
+            if (known == source) return image.width > 0 ? &image : nullptr;
+        Image image;
+        try {
+            image = loadImage(source);
+        } catch (const std::runtime_error& error) {
+            warnings_.add({std::string(error.what()) + "; drawn without this texture"});
+            images_.emplace_back(source, Image{});
+            return nullptr;
+        }
+        warnings_.add(image.warnings);
         if (const auto* floats = std::get_if<std::vector<float>>(&image.pixels)) {
             Bytes bytes(floats->size());
             std::transform(floats->begin(), floats->end(), bytes.begin(), byteOf);
@@ -34,6 +45,7 @@ class ImageCache {
     }
 
   private:
+    Warnings& warnings_;
     std::deque<std::pair<ImageSource, Image>> images_;
 };
 
@@ -128,8 +140,8 @@ Texture packed(ImageCache& cache, const ImageSource& color, glm::ivec3 color_def
 
 } // namespace
 
-MaterialTextures loadMaterial(const MaterialData& material, MaterialFilter filter) {
-    ImageCache cache;
+MaterialTextures loadMaterial(const MaterialData& material, MaterialFilter filter, Warnings& warnings) {
+    ImageCache cache(warnings);
     const float open = 1 - material.occlusion_strength;
     return {.base = packed(cache, material.base_color_texture.image, {255, 255, 255},
                            material.occlusion_texture, material.occlusion_strength, open, true, filter),

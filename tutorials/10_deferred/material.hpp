@@ -1,6 +1,7 @@
 // A surface's images as the geometry pass reads them: packed into two textures, so that it fetches twice.
 #pragma once
 
+#include "app/warnings.hpp"
 #include "gl/texture.hpp"
 #include "io/mesh.hpp"
 
@@ -17,7 +18,8 @@ struct MaterialTextures {
 };
 
 // Reads the images of a material and packs them; one that is smaller than its texture is enlarged
-// bilinearly. Row 0 of an image is at v = 0. Throws std::runtime_error naming the image that cannot be read.
-MaterialTextures loadMaterial(const MaterialData& material, MaterialFilter filter);
+// bilinearly. Row 0 of an image is at v = 0. An image that cannot be read is named in a warning, and the
+// material is made without it.
+MaterialTextures loadMaterial(const MaterialData& material, MaterialFilter filter, Warnings& warnings);
 
 } // namespace gll

@@ -59,9 +59,10 @@ Mesh makeFloor() {
 
 } // namespace
 
-Scene::Scene(const std::filesystem::path& mesh, const std::filesystem::path& floor)
-    : statue_(Mesh::fullScreenTriangle()), floor_(makeFloor()) {
+Scene::Scene(const std::filesystem::path& mesh, const std::filesystem::path& floor, Warnings& warnings)
+    : warnings_(warnings), statue_(Mesh::fullScreenTriangle()), floor_(makeFloor()) {
     const MeshData data = loadMesh(mesh);
+    warnings.add(data.warnings);
     statue_ = makeStatue(data, mesh);
     for (const MaterialData& material : data.materials)
         surfaces_.push_back({.data = material,
@@ -90,7 +91,7 @@ std::vector<Draw> Scene::materialDraws(MaterialFilter filter, bool flip_v) {
     for (const Part& part : parts_) {
         Surface& surface = surfaces_[part.surface];
         std::optional<MaterialTextures>& textures = surface.textures[static_cast<std::size_t>(filter)];
-        if (!textures) textures = loadMaterial(surface.data, filter);
+        if (!textures) textures = loadMaterial(surface.data, filter, warnings_);
         draws.push_back({.mesh = *part.mesh,
                          .inputs = {{"base_map", textures->base}, {"surface_map", textures->surface}},
                          .uniforms = {{"base_color", glm::vec3(surface.data.base_color)},

@@ -1,6 +1,7 @@
 // The scene of 10_deferred: a statue of height 2.2 on a floor of 12 x 12, both modelled in world space.
 #pragma once
 
+#include "app/warnings.hpp"
 #include "gl/pass.hpp"
 #include "material.hpp"
 
@@ -14,8 +15,8 @@ namespace gll {
 class Scene {
   public:
     // mesh: .obj, .gltf or .glb, scaled and moved to stand on the floor; floor: .mtl, its first material.
-    // Throws std::runtime_error naming the file that cannot be used.
-    Scene(const std::filesystem::path& mesh, const std::filesystem::path& floor);
+    // Throws std::runtime_error naming the file that cannot be used. The warnings must outlive the scene.
+    Scene(const std::filesystem::path& mesh, const std::filesystem::path& floor, Warnings& warnings);
 
     // Attributes 0: position, 1: normal, 2: uv; nearest the camera first, so that the depth test spares what
     // is behind. The draws last as long as the scene and until the next call with another filter.
@@ -35,6 +36,7 @@ class Scene {
         std::uint32_t first_index, index_count;
     };
 
+    Warnings& warnings_;
     Mesh statue_;
     Mesh floor_;
     std::vector<Surface> surfaces_;
