@@ -243,7 +243,7 @@ void bakeBrick(const std::filesystem::path& folder) {
                                     "newmtl brick\n"
                                     "Kd 1 1 1\n"
                                     "map_Kd brick_albedo.jpg\n"
-                                    "map_Ka brick_ao.png\n"
+                                    "map_ao brick_ao.png\n"
                                     "map_Pr brick_roughness.png\n"
                                     "norm brick_normal.png\n");
     writeJpeg(folder / "brick_albedo.jpg", albedo, 94);

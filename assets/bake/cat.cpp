@@ -402,7 +402,7 @@ void bakeCat(const std::filesystem::path& folder) {
               "newmtl concrete\n"
               "Kd 1 1 1\n"
               "map_Kd cat_albedo.jpg\n"
-              "map_Ka -imfchan r cat_arm.png\n"
+              "map_ao -imfchan r cat_arm.png\n"
               "map_Pr -imfchan g cat_arm.png\n"
               "map_Pm -imfchan b cat_arm.png\n"
               "norm cat_normal.png\n");

@@ -109,8 +109,12 @@ inline constexpr std::size_t max_node_depth = 256;
 // Reads a .obj, .gltf or .glb (told by the extension) with its materials. Files named inside must lie in the
 // mesh's folder or below it.
 //
-// OBJ: v, vt, vn, f, usemtl, mtllib; the rest is skipped. Relative indices, polygons (triangulated), CRLF.
-// Missing normals are the angle-weighted mean of the faces round the vertex.
+// OBJ: v (with r g b: sRGB), vt, vn, f, s, usemtl, mtllib. Relative indices, indices ahead, polygons
+// (triangulated), lines that go on after a backslash; LF, CRLF or CR; a byte order mark. Missing normals are
+// the angle-weighted mean of the faces of the same smoothing group round the vertex, without a group the
+// face's own. A material library, material or texture that is missing, a texture coordinate or normal that
+// does not exist, lines, points and free-form surfaces become warnings. Refused: numbers that are none,
+// vertices that do not exist, no faces at all.
 //
 // glTF: the default scene (without one: the first; without scenes: all root nodes), transforms applied,
 // strips and fans as triangles, points and lines skipped. Missing normals are the faces' own, as the
@@ -122,10 +126,12 @@ inline constexpr std::size_t max_node_depth = 256;
 // /json/pointer" for glTF, or the path where neither applies.
 MeshData loadMesh(const std::filesystem::path& path);
 
-// Reads the materials of an MTL, at least one, in the file's order. Kd, map_Kd: base colour. map_Ka:
-// occlusion. Pr, map_Pr: roughness, 1 without Pr. Pm, map_Pm: metallic; without Pm 1 if there is a map, else
-// 0. Ke, map_Ke: emitted colour. norm or, without it, map_Bump: a normal map, not heights. "-imfchan r|g|b|m"
-// before a file name picks the channel (m: the first). Throws as loadMesh does.
-std::vector<MaterialData> loadMtl(const std::filesystem::path& path);
+// Reads the materials of an MTL, at least one, in the file's order. Kd, map_Kd: base color (linear; without
+// both plain grey). map_ao: occlusion. Pr, map_Pr: roughness, 1 without Pr. Pm, map_Pm: metallic; without Pm 1
+// if there is a map, else 0. Ke, map_Ke: emitted color. norm, map_Kn: a normal map. bump, map_Bump: heights,
+// -bm their scale. map_d: an alpha mask, if it is map_Kd's image. "-imfchan r|g|b|m" before a file name picks
+// the channel (m: the first); -s and -o: uv * s + o; -clamp. What cannot be read or is not drawn is appended
+// to the warnings, "path:line: what". Throws as loadMesh does where there is no file or no material in it.
+std::vector<MaterialData> loadMtl(const std::filesystem::path& path, std::vector<std::string>& warnings);
 
 } // namespace gll

@@ -12,6 +12,9 @@ namespace gll {
 MeshData loadObj(const std::filesystem::path& path);
 MeshData loadGltf(const std::filesystem::path& path);
 
+class Notes; // statements.hpp
+std::vector<MaterialData> readMtl(const std::filesystem::path& path, Notes& notes);
+
 // Concatenates triangle indices kept by material into mesh.indices and mesh.parts.
 void setParts(MeshData& mesh, const std::vector<std::vector<std::uint32_t>>& indices_by_material);
 

@@ -1,361 +1,250 @@
-// Reads OBJ and MTL through tinyobjloader, which reads "nan" as 0 and takes indices out of range with a
-// warning at most. So every statement is checked here first, with its line, and tinyobjloader sees only what
-// has passed. Polygons are cut up here too: its ear test measures from the origin and drops faces that lie
-// badly to it.
-#include "io/files.hpp"
+// Reads OBJ. tinyobjloader reads numbers, indices, colors and smoothing groups; before it each statement is
+// checked, with its line, for what it would take without a word: "nan" as 0, "3x" as 3, an index of 20 digits
+// as -1, a polygon of 256 corners as one of none. What it should not see is blanked in its text. It takes one
+// word of a material's name, so materials are told here. Polygons are cut up here too: its ear test measures
+// from the origin and drops faces that lie badly to it.
 #include "io/mesh_build.hpp"
+#include "io/polygon.hpp"
+#include "io/statements.hpp"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #define TINYOBJLOADER_IMPLEMENTATION
 #include <tiny_obj_loader.h>
 
-#include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <map>
 #include <numeric>
+#include <set>
 #include <sstream>
-#include <string_view>
 #include <unordered_map>
 #include <utility>
 
 namespace gll {
 namespace {
 
-// One statement of the file: keyword, the rest of the line without blanks at its ends, and "path:line".
-struct Statement {
-    std::string_view keyword;
-    std::string_view rest;
-    std::string where;
-};
-
-std::string_view trimmed(std::string_view text) {
-    const std::size_t begin = text.find_first_not_of(" \t");
-    if (begin == std::string_view::npos) return {};
-    return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
-}
-
-// The next word of text, which is shortened by it; empty at the end.
-std::string_view nextWord(std::string_view& text) {
-    text = trimmed(text);
-    const std::string_view word = text.substr(0, text.find_first_of(" \t"));
-    text.remove_prefix(word.size());
-    return word;
-}
-
-// Calls use(statement) for every line that is neither empty nor a comment. Lines end in LF, CRLF or CR.
-template <typename Use>
-void forEachStatement(std::string_view text, const std::string& path, const Use& use) {
-    if (text.find('\0') != std::string_view::npos) throw fileError(path, "is binary, an OBJ or MTL is text");
-    std::size_t line_number = 0;
-    while (!text.empty()) {
-        ++line_number;
-        const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-        std::string_view line = trimmed(text.substr(0, end));
-        text.remove_prefix(end);
-        if (!text.empty()) text.remove_prefix(text.starts_with("\r\n") ? 2 : 1);
-        if (line.empty() || line.front() == '#') continue;
-        Statement statement;
-        statement.keyword = nextWord(line);
-        statement.rest = trimmed(line);
-        statement.where = path + ":" + std::to_string(line_number);
-        use(statement);
-    }
-}
-
-// A finite number that a float can hold with room to spare, because tinyobjloader's own parser rounds
-// otherwise than this one. It also raises ten to whatever exponent it finds, so words are limited in length.
-float parseNumber(std::string_view word, const std::string& where) {
-    double value = 0.0;
-    std::string_view digits = word;
-    if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);
-    const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (word.empty() || parsed.ec == std::errc::invalid_argument ||
-        parsed.ptr != digits.data() + digits.size())
-        throw fileError(where, word.empty() ? "a number is missing" : inQuotes(word) + " is not a number");
-    if (parsed.ec != std::errc() || !(std::abs(value) <= 1e38) || word.size() > 64)
-        throw fileError(where, inQuotes(word) + " is not a finite number of sensible size");
-    return static_cast<float>(value);
-}
-
-// --- MTL ---
-
-// Numbers as "Kd r g b"; a single one stands for all three, as the MTL specification has it.
-glm::vec3 parseColor(std::string_view rest, const std::string& where) {
-    glm::vec3 colour(parseNumber(nextWord(rest), where));
-    if (!rest.empty()) {
-        colour.y = parseNumber(nextWord(rest), where);
-        colour.z = parseNumber(nextWord(rest), where);
-    }
-    if (colour.x < 0.0F || colour.y < 0.0F || colour.z < 0.0F)
-        throw fileError(where, "a colour is not negative in any channel");
-    return colour;
-}
-
-float parseUnit(std::string_view rest, const std::string& where) {
-    const float value = parseNumber(nextWord(rest), where);
-    if (value < 0.0F || value > 1.0F) throw fileError(where, "a value of 0 to 1 is needed");
-    return value;
-}
-
-// "map_... [options] file" read by tinyobjloader, then the file looked up beside the MTL.
-TextureData parseTexture(const Statement& statement, const std::filesystem::path& folder) {
-    std::string name;
-    tinyobj::texture_option_t options{};
-    options.imfchan = 'm';
-    options.scale[0] = options.scale[1] = options.scale[2] = tinyobj::real_t(1);
-    const std::string rest(statement.rest);
-    if (!tinyobj::ParseTextureNameAndOption(&name, &options, rest.c_str()) || trimmed(name).empty())
-        throw fileError(statement.where, "the texture's file name is missing");
-    name = trimmed(name);
-    if (name.front() == '-')
-        throw fileError(statement.where, "the texture option " + inQuotes(name) + " is unknown, remove it");
-    const auto is = [](const tinyobj::real_t* v, tinyobj::real_t value) {
-        return v[0] == value && v[1] == value;
-    };
-    if (!is(options.origin_offset, 0) || !is(options.scale, 1))
-        throw fileError(statement.where,
-                        "texture options -o and -s are not applied, change the mesh's vt instead");
-
-    TextureData result;
-    switch (options.imfchan) {
-    case 'm':
-    case 'l':
-    case 'r':
-        result.channel = 0;
-        break;
-    case 'g':
-        result.channel = 1;
-        break;
-    case 'b':
-        result.channel = 2;
-        break;
-    default:
-        throw fileError(statement.where, "-imfchan takes r, g, b or m");
-    }
-    result.image.file = confinedFile(folder, name, statement.where + ": texture");
-    result.image.name = result.image.file.string();
-    return result;
-}
-
-std::vector<MaterialData> readMtl(const std::filesystem::path& path) {
-    const std::string text = readFile(path, max_mesh_file_bytes);
-    const std::filesystem::path folder = path.parent_path();
-    std::vector<MaterialData> materials;
-    bool metallic_given = false;
-    bool normal_given = false;
-    forEachStatement(text, path.string(), [&](const Statement& s) {
-        if (s.keyword == "newmtl") {
-            if (s.rest.empty()) throw fileError(s.where, "the material's name is missing");
-            materials.emplace_back().name = s.rest;
-            metallic_given = false;
-            normal_given = false;
-            return;
-        }
-        const auto material = [&]() -> MaterialData& {
-            if (materials.empty())
-                throw fileError(s.where, inQuotes(s.keyword) + " comes before the first newmtl");
-            return materials.back();
-        };
-        if (s.keyword == "Kd") {
-            material().base_color = glm::vec4(parseColor(s.rest, s.where), material().base_color.a);
-        } else if (s.keyword == "Ke") {
-            material().emitted_color = parseColor(s.rest, s.where);
-        } else if (s.keyword == "Pr") {
-            material().roughness = parseUnit(s.rest, s.where);
-        } else if (s.keyword == "Pm") {
-            material().metallic = parseUnit(s.rest, s.where);
-            metallic_given = true;
-        } else if (s.keyword == "map_Kd") {
-            material().base_color_texture.image = parseTexture(s, folder).image;
-        } else if (s.keyword == "map_Ke") {
-            material().emitted_color_texture.image = parseTexture(s, folder).image;
-            if (material().emitted_color == glm::vec3(0.0F)) material().emitted_color = glm::vec3(1.0F);
-        } else if (s.keyword == "map_Ka") {
-            material().occlusion_texture = parseTexture(s, folder);
-        } else if (s.keyword == "map_Pr") {
-            material().roughness_texture = parseTexture(s, folder);
-        } else if (s.keyword == "map_Pm") {
-            material().metallic_texture = parseTexture(s, folder);
-            if (!metallic_given) material().metallic = 1.0F;
-        } else if (s.keyword == "norm") {
-            material().normal_texture.image = parseTexture(s, folder).image;
-            normal_given = true;
-        } else if (s.keyword == "map_Bump" || s.keyword == "map_bump" || s.keyword == "bump") {
-            if (!normal_given) material().normal_texture.image = parseTexture(s, folder).image;
-        }
-    });
-    if (materials.empty()) throw fileError(path.string(), "has no material, add a newmtl statement");
-    return materials;
-}
-
-// --- OBJ ---
-
-// A checked OBJ: text that tinyobjloader reads without surprises, and the materials it refers to by number.
-struct CheckedObj {
-    std::string text;
-    std::vector<MaterialData> materials;
-    std::size_t positions = 0;
-    std::size_t faces = 0;
-};
-
-// "-1" is the last one so far, "1" the first. Both must exist already, as the OBJ specification has it.
-void checkIndex(std::string_view word, std::size_t count, const char* what, const std::string& where) {
-    long long index = 0;
-    const auto parsed = std::from_chars(word.data(), word.data() + word.size(), index);
-    const bool number = parsed.ec == std::errc() && parsed.ptr == word.data() + word.size();
-    const long long limit = static_cast<long long>(count);
-    if (!number || index == 0 || index > limit || index < -limit)
-        throw fileError(where, std::string(what) + " index " + inQuotes(word) + " is not among the " +
-                                   std::to_string(count) + " so far");
-}
-
-// One corner "v", "v/vt", "v//vn" or "v/vt/vn".
-void checkCorner(std::string_view corner, const std::array<std::size_t, 3>& counts,
-                 const std::string& where) {
-    constexpr std::array names = {"vertex", "texture", "normal"};
-    for (std::size_t field = 0; field < 3; ++field) {
-        const std::size_t slash = corner.find('/');
-        const std::string_view word = corner.substr(0, slash);
-        const bool last = slash == std::string_view::npos;
-        if (!word.empty() || field == 0 || last) checkIndex(word, counts[field], names[field], where);
-        if (last) return;
-        corner.remove_prefix(slash + 1);
-    }
-    throw fileError(where, "a corner has more than three indices");
-}
-
-class ObjCheck {
+// The text of an OBJ, left with what tinyobjloader reads without surprises, and what else it says.
+class ObjText {
   public:
-    explicit ObjCheck(const std::filesystem::path& obj_path) : path(obj_path) {}
-
-    CheckedObj run() {
-        const std::string text = readFile(path, max_mesh_file_bytes);
-        checked.text.reserve(text.size());
-        checked.text = "mtllib all\n"; // tinyobjloader asks NumberedMaterials for it
-        forEachStatement(text, path.string(), [&](const Statement& statement) { check(statement); });
-        if (counts[0] == 0) throw fileError(path.string(), "has no vertices, export the mesh again");
-        if (checked.faces == 0) throw fileError(path.string(), "has no faces, export the mesh again");
-        checked.positions = counts[0];
-        return std::move(checked);
+    explicit ObjText(const std::filesystem::path& path)
+        : text(readFile(path, max_mesh_file_bytes)), path_(path), name_(path.string()) {
+        forEachStatement(text, name_, [&](const Statement& s) { check(s); });
+        if (counts[0] == 0) throw fileError(name_, "has no vertices, export the mesh again");
+        if (face_materials.empty())
+            throw fileError(name_, undrawn_.empty() ? "has no faces, export the mesh again"
+                                                    : "has no faces, only " + undrawn_ +
+                                                          ", which is not drawn; export it as polygons");
+        if (greatest_[0].index > counts[0])
+            refuseVertex(std::to_string(greatest_[0].index), greatest_[0].line);
+        resolveMaterials();
     }
+
+    // Of a texture coordinate (1) or normal (2) that faces name and the file does not have.
+    void noteMissing(std::size_t kind, std::size_t line, std::size_t times = 1) {
+        notes.add(at(line), std::string(kinds[kind]) + " that does not exist is left out", times);
+    }
+    std::size_t lineOfGreatest(std::size_t kind) const { return greatest_[kind].line; }
+
+    std::string text;
+    std::array<std::size_t, 3> counts{};       // v, vt, vn
+    std::vector<std::uint32_t> face_materials; // one a face, in the text's order
+    std::vector<MaterialData> materials;
+    Notes notes;
 
   private:
+    static constexpr std::array kinds = {"a vertex", "a texture coordinate", "a normal"};
+    struct Greatest {
+        std::size_t index = 0, line = 0;
+    };
+
+    std::string at(std::size_t line) const { return name_ + ":" + std::to_string(line); }
+    char* inText(std::string_view part) { return text.data() + (part.data() - text.data()); }
+    void blank(std::string_view part) { std::fill_n(inText(part), part.size(), ' '); }
+
     void check(const Statement& s) {
-        if (s.keyword == "v") {
-            keepNumbers(s, 3, 3);
-            ++counts[0];
-        } else if (s.keyword == "vt") {
-            keepNumbers(s, 1, 2);
-            ++counts[1];
-        } else if (s.keyword == "vn") {
-            keepNumbers(s, 3, 3);
-            ++counts[2];
-        } else if (s.keyword == "f") {
-            checkFace(s);
-        } else if (s.keyword == "mtllib") {
-            readLibraries(s);
-        } else if (s.keyword == "usemtl") {
-            const auto found = material_numbers.find(s.rest);
-            if (found == material_numbers.end())
-                throw fileError(s.where, "material " + inQuotes(s.rest) + " is in no mtllib named above");
-            keep(s.keyword, std::to_string(found->second));
+        if (s.keyword == "v") return checkNumbers(s, 0, 3, 3);
+        if (s.keyword == "vt") return checkNumbers(s, 1, 1, 2);
+        if (s.keyword == "vn") return checkNumbers(s, 2, 3, 3);
+        if (s.keyword == "f") return checkFace(s);
+        if (s.keyword == "s") {
+            if (s.rest == "on") std::copy_n(" 1", 2, inText(s.rest));
+            return;
         }
-        if (counts[0] > max_mesh_vertices || counts[1] > max_mesh_vertices || counts[2] > max_mesh_vertices)
-            throw fileError(s.where, "more than " + std::to_string(max_mesh_vertices) + " vertices");
+        if (s.keyword == "mtllib") readLibraries(s);
+        if (s.keyword == "usemtl") {
+            const auto [known, is_new] = slots_.emplace(s.rest, static_cast<std::uint32_t>(used_.size()));
+            if (is_new) used_.push_back({std::string(s.rest), s.line_number});
+            material_ = known->second;
+        }
+        static const std::set<std::string_view> undrawn = {"l",   "p",   "curv", "curv2", "surf",
+                                                           "bzp", "bsp", "cdc",  "cdp",   "call"};
+        if (undrawn.contains(s.keyword)) {
+            notes.add(s.where(), inQuotes(s.keyword) + " is not drawn");
+            undrawn_ = inQuotes(s.keyword);
+        }
+        blank(s.keyword);
+        blank(s.rest);
     }
 
-    void keep(std::string_view keyword, std::string_view rest) {
-        checked.text.append(keyword).append(" ").append(rest).append("\n");
-    }
-
-    // Passes on the first `most` numbers; weights, colours and third texture coordinates after them do not
-    // matter.
-    void keepNumbers(const Statement& s, std::size_t least, std::size_t most) {
+    // Weights and third texture coordinates do not matter; of colors see vertexColors().
+    void checkNumbers(const Statement& s, std::size_t kind, std::size_t least, std::size_t most) {
         std::string_view rest = s.rest;
-        checked.text += s.keyword;
         for (std::size_t i = 0; i < most; ++i) {
             const std::string_view word = nextWord(rest);
             if (word.empty() && i >= least) break;
-            parseNumber(word, s.where);
-            checked.text.append(" ").append(word);
+            parseNumber(word, s);
         }
-        checked.text += '\n';
+        if (++counts[kind] > max_mesh_vertices)
+            throw fileError(s.where(), "more than " + std::to_string(max_mesh_vertices) + " vertices");
     }
 
     void checkFace(const Statement& s) {
         std::string_view rest = s.rest;
         std::size_t corners = 0;
         for (std::string_view corner = nextWord(rest); !corner.empty(); corner = nextWord(rest)) {
-            checkCorner(corner, counts, s.where);
+            if (corner.front() == '#') {
+                blank({corner.data(), s.rest.data() + s.rest.size()});
+                break;
+            }
+            checkCorner(corner, s);
             ++corners;
         }
-        if (corners < 3 || corners > max_face_corners)
-            throw fileError(s.where, "a face of " + std::to_string(corners) + " corners, 3 to " +
-                                         std::to_string(max_face_corners) + " are read");
-        triangles += corners - 2;
-        if (triangles > max_mesh_indices / 3)
-            throw fileError(s.where, "more than " + std::to_string(max_mesh_indices / 3) + " triangles");
-        ++checked.faces;
-        keep(s.keyword, s.rest);
+        if (corners < 3 || corners > max_face_corners) {
+            notes.add(s.where(), "a face of " + std::to_string(corners) + " corners is not drawn, 3 to " +
+                                     std::to_string(max_face_corners) + " are");
+            blank(s.keyword);
+            return blank(s.rest);
+        }
+        triangles_ += corners - 2;
+        if (triangles_ > max_mesh_indices / 3)
+            throw fileError(s.where(), "more than " + std::to_string(max_mesh_indices / 3) + " triangles");
+        face_materials.push_back(material_);
+    }
+
+    // "v", "v/vt", "v//vn" or "v/vt/vn", written anew where not all of it counts.
+    void checkCorner(std::string_view corner, const Statement& s) {
+        std::array<std::string_view, 3> words;
+        std::string_view rest = corner;
+        for (std::size_t i = 0;; ++i) {
+            if (i == words.size()) throw fileError(s.where(), "a corner has more than three indices");
+            const std::size_t slash = rest.find('/');
+            words[i] = rest.substr(0, slash);
+            if (slash == std::string_view::npos) break;
+            rest.remove_prefix(slash + 1);
+        }
+        bool mended = corner.ends_with('/');
+        for (std::size_t i = 0; i < words.size(); ++i)
+            if ((i == 0 || !words[i].empty()) && !counted(words[i], i, s)) {
+                words[i] = {};
+                mended = true;
+            }
+        if (!mended) return;
+        std::string anew(words[0]);
+        if (!words[1].empty() || !words[2].empty()) anew.append("/").append(words[1]);
+        if (!words[2].empty()) anew.append("/").append(words[2]);
+        anew.resize(corner.size(), ' ');
+        std::copy(anew.begin(), anew.end(), inText(corner));
+    }
+
+    // "-1" is the last one so far and must exist already; "1", the first, may come after its face. False
+    // where a texture coordinate or a normal does not exist.
+    bool counted(std::string_view word, std::size_t kind, const Statement& s) {
+        long long index = 0;
+        const auto parsed = std::from_chars(word.data(), word.data() + word.size(), index);
+        if (parsed.ec == std::errc::invalid_argument || parsed.ptr != word.data() + word.size())
+            throw fileError(s.where(), inQuotes(word) + " is no index of " + kinds[kind]);
+        if (index == 0 || index < -static_cast<long long>(counts[kind]) ||
+            index > static_cast<long long>(max_mesh_vertices)) {
+            if (kind == 0) refuseVertex(word, s.line_number);
+            noteMissing(kind, s.line_number);
+            return false;
+        }
+        const auto positive = static_cast<std::size_t>(std::max(index, 0LL));
+        if (positive > greatest_[kind].index) greatest_[kind] = {positive, s.line_number};
+        return true;
+    }
+
+    [[noreturn]] void refuseVertex(std::string_view word, std::size_t line) const {
+        throw fileError(at(line), "vertex index " + inQuotes(word) + " is not among the " +
+                                      std::to_string(counts[0]) + ", export the mesh again");
     }
 
     // "mtllib one.mtl two.mtl", or a single name with blanks in it.
     void readLibraries(const Statement& s) {
-        const std::filesystem::path folder = path.parent_path();
         std::error_code failure;
-        if (std::filesystem::is_regular_file(folder / std::string(s.rest), failure))
-            return readLibrary(s.rest, s);
         std::string_view rest = s.rest;
-        std::string_view name = nextWord(rest);
-        do
-            readLibrary(name, s);
-        while (!(name = nextWord(rest)).empty());
+        if (std::filesystem::is_regular_file(path_.parent_path() / std::string(rest), failure))
+            return readLibrary(rest, s);
+        rest = withoutComment(rest);
+        while (!rest.empty()) {
+            const std::size_t end = lowerCase(rest).find(".mtl ");
+            readLibrary(trimmed(rest.substr(0, end == std::string::npos ? end : end + 4)), s);
+            rest.remove_prefix(end == std::string::npos ? rest.size() : end + 4);
+        }
+        if (s.rest.empty()) readLibrary("", s);
     }
 
     void readLibrary(std::string_view name, const Statement& s) {
         const std::filesystem::path library =
-            confinedFile(path.parent_path(), std::string(name), s.where + ": material library");
-        if (!libraries.emplace(library, true).second)
+            namedFile(std::string(name), "material library", path_.parent_path(), s, notes);
+        if (!library.empty() && !libraries_.insert(library).second)
             return; // named twice: exporters repeat it for every object
-        for (MaterialData& material : readMtl(library)) {
-            material_numbers.emplace(material.name, checked.materials.size()); // the first of a name counts
-            checked.materials.push_back(std::move(material));
+        const bool read = !library.empty() && notes.attempt(s.where(), [&] {
+            for (MaterialData& material : readMtl(library, notes))
+                materials.push_back(std::move(material));
+        });
+        library_missing_ = library_missing_ || !read;
+    }
+
+    // From the names that faces use to materials, the first of a name; one more where there is none.
+    void resolveMaterials() {
+        std::map<std::string_view, std::uint32_t> numbers;
+        for (std::size_t i = 0; i < materials.size(); ++i)
+            numbers.emplace(materials[i].name, static_cast<std::uint32_t>(i));
+        for (std::size_t i = 0; i < materials.size(); ++i)
+            numbers.emplace(withoutComment(materials[i].name), static_cast<std::uint32_t>(i));
+        const auto plain = static_cast<std::uint32_t>(materials.size());
+        std::vector<std::uint32_t> of_slot;
+        for (const Used& used : used_) {
+            auto found = numbers.find(used.name);
+            if (found == numbers.end()) found = numbers.find(withoutComment(used.name));
+            of_slot.push_back(found == numbers.end() ? plain : found->second);
+            if (found == numbers.end() && used.line > 0 && !library_missing_)
+                notes.add(at(used.line), "material " + inQuotes(used.name) +
+                                             " is in no material library, drawn in plain grey");
         }
+        for (std::uint32_t& material : face_materials)
+            material = of_slot[material];
+        if (std::find(face_materials.begin(), face_materials.end(), plain) == face_materials.end()) return;
+        materials.emplace_back().name = "default";
+        materials.back().base_color = glm::vec4(glm::vec3(plain_grey), 1.0F);
     }
 
-    const std::filesystem::path& path;
-    CheckedObj checked;
-    std::array<std::size_t, 3> counts{}; // v, vt, vn so far
-    std::size_t triangles = 0;
-    std::map<std::filesystem::path, bool> libraries;
-    std::map<std::string, std::size_t, std::less<>> material_numbers;
+    struct Used {
+        std::string name;
+        std::size_t line;
+    };
+
+    const std::filesystem::path& path_;
+    std::string name_;
+    std::array<Greatest, 3> greatest_;
+    std::size_t triangles_ = 0;
+    std::uint32_t material_ = 0;
+    std::vector<Used> used_ = {{"", 0}}; // before any usemtl there is none
+    std::map<std::string, std::uint32_t, std::less<>> slots_;
+    std::set<std::filesystem::path> libraries_;
+    bool library_missing_ = false;
+    std::string undrawn_;
 };
 
-// Tells tinyobjloader that material "7" is number 7.
-class NumberedMaterials : public tinyobj::MaterialReader {
-  public:
-    explicit NumberedMaterials(std::size_t material_count) : count(material_count) {}
-
-    bool operator()(const std::string&, std::vector<tinyobj::material_t>* materials,
-                    std::map<std::string, int>* numbers, std::string*, std::string*) override {
-        materials->resize(count);
-        for (std::size_t i = 0; i < count; ++i)
-            numbers->emplace(std::to_string(i), static_cast<int>(i));
-        return true;
-    }
-
-  private:
-    std::size_t count;
-};
-
-// A vertex of the result is one combination of an OBJ's three index spaces.
+// A vertex of the result is one combination of an OBJ's three index spaces and of what shades it: 0 a normal
+// of its own, n > 0 smoothing group n, -n the n-th face.
 struct Corner {
     int position, uv, normal;
+    std::int64_t shading;
     bool operator==(const Corner&) const = default;
 };
 struct CornerHash {
@@ -363,125 +252,131 @@ struct CornerHash {
         std::uint64_t h = static_cast<std::uint32_t>(c.position);
         h = (h * 0x9e3779b97f4a7c15u) ^ static_cast<std::uint32_t>(c.uv);
         h = (h * 0x9e3779b97f4a7c15u) ^ static_cast<std::uint32_t>(c.normal);
+        h = (h * 0x9e3779b97f4a7c15u) ^ static_cast<std::uint64_t>(c.shading);
         return static_cast<std::size_t>(h ^ (h >> 29));
     }
 };
 
-// Cuts a polygon without holes into corners.size() - 2 triangles of corner numbers, in its own winding, by
-// clipping ears in the plane of its Newell normal. Where no ear is left (corners that coincide or edges that
-// cross) it cuts anyway: a face never vanishes, and nothing loops.
-std::vector<std::array<std::size_t, 3>> cutPolygon(const std::vector<glm::dvec3>& corners) {
-    std::vector<std::array<std::size_t, 3>> triangles;
-    glm::dvec3 normal(0.0);
-    for (std::size_t i = 0; i < corners.size(); ++i)
-        normal += glm::cross(corners[i] - corners[0], corners[(i + 1) % corners.size()] - corners[0]);
-    // Twice the signed area of three corners as the polygon's front sees them.
-    const auto turn = [&](std::size_t a, std::size_t b, std::size_t c) {
-        return glm::dot(normal, glm::cross(corners[b] - corners[a], corners[c] - corners[a]));
-    };
-
-    std::vector<std::size_t> rest(corners.size());
-    std::iota(rest.begin(), rest.end(), std::size_t(0));
-    while (rest.size() > 3) {
-        std::size_t ear = 0;
-        double shortest = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i < rest.size(); ++i) {
-            const std::size_t a = rest[(i + rest.size() - 1) % rest.size()];
-            const std::size_t b = rest[i];
-            const std::size_t c = rest[(i + 1) % rest.size()];
-            // Of all ears the one whose cut is shortest: for quads that is the usual choice of diagonal.
-            const double cut = glm::dot(corners[c] - corners[a], corners[c] - corners[a]);
-            if (!(turn(a, b, c) > 0.0) || !(cut < shortest)) continue;
-            const bool free = std::none_of(rest.begin(), rest.end(), [&](std::size_t p) {
-                return p != a && p != b && p != c && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 &&
-                       turn(c, a, p) >= 0.0;
-            });
-            if (!free) continue;
-            ear = i;
-            shortest = cut;
-        }
-        triangles.push_back(
-            {rest[(ear + rest.size() - 1) % rest.size()], rest[ear], rest[(ear + 1) % rest.size()]});
-        rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(ear));
+// Linear, from "v x y z r g b", which exporters write in sRGB, some in 0 to 255. Empty where all are white.
+std::vector<glm::vec4> vertexColors(const std::vector<tinyobj::real_t>& rgb, const std::string& where,
+                                    Notes& notes) {
+    const float largest = *std::max_element(rgb.begin(), rgb.end());
+    const float scale = largest > 2.0F ? 1.0F / 255.0F : 1.0F;
+    if (largest > 2.0F) notes.add(where, "vertex colors above 1 are read as 0 to 255");
+    std::vector<glm::vec4> colors(rgb.size() / 3, glm::vec4(1.0F));
+    bool any = false;
+    for (std::size_t i = 0; i < rgb.size(); ++i) {
+        const float srgb = std::min(std::max(0.0F, rgb[i] * scale), 1.0F); // and 0 for what is no number
+        any = any || srgb != 1.0F;
+        colors[i / 3][static_cast<int>(i % 3)] =
+            srgb <= 0.04045F ? srgb / 12.92F : std::pow((srgb + 0.055F) / 1.055F, 2.4F);
     }
-    triangles.push_back({rest[0], rest[1], rest[2]});
-    return triangles;
+    return any ? colors : std::vector<glm::vec4>();
 }
 
 } // namespace
 
 MeshData loadObj(const std::filesystem::path& path) {
-    CheckedObj checked = ObjCheck(path).run();
+    ObjText obj(path);
 
     tinyobj::attrib_t attributes;
     std::vector<tinyobj::shape_t> shapes;
     std::vector<tinyobj::material_t> unused_materials;
-    std::string warning;
+    std::string unused_warning;
     std::string error;
-    std::istringstream stream(std::move(checked.text));
-    NumberedMaterials materials(checked.materials.size());
+    std::istringstream stream(std::move(obj.text));
     constexpr bool triangulate = false;
-    constexpr bool make_up_colors = false;
-    if (!tinyobj::LoadObj(&attributes, &shapes, &unused_materials, &warning, &error, &stream, &materials,
-                          triangulate, make_up_colors))
+    const bool read = tinyobj::LoadObj(&attributes, &shapes, &unused_materials, &unused_warning, &error,
+                                       &stream, nullptr, triangulate);
+    const std::size_t faces = shapes.empty() ? 0 : shapes[0].mesh.num_face_vertices.size();
+    if (!read || shapes.size() != 1 || faces != obj.face_materials.size() ||
+        attributes.vertices.size() != obj.counts[0] * 3 || attributes.colors.size() != obj.counts[0] * 3 ||
+        attributes.texcoords.size() != obj.counts[1] * 2 || attributes.normals.size() != obj.counts[2] * 3)
         throw fileError(path.string(), "cannot be read (" + error.substr(0, error.find('\n')) + ")");
+    const tinyobj::mesh_t& shape = shapes[0].mesh;
 
     const auto at3 = [](const std::vector<tinyobj::real_t>& v, int i) {
         const std::size_t k = static_cast<std::size_t>(i) * 3;
         return glm::vec3(v.at(k), v.at(k + 1), v.at(k + 2));
     };
-    std::vector<glm::vec3> positions(checked.positions);
-    for (std::size_t i = 0; i < positions.size(); ++i)
-        positions[i] = at3(attributes.vertices, static_cast<int>(i));
-    // Three corners a triangle, and the triangle's material.
-    std::vector<tinyobj::index_t> corners;
-    std::vector<int> triangle_materials;
-    for (const tinyobj::shape_t& shape : shapes) {
-        std::size_t first = 0;
-        for (std::size_t face = 0; face < shape.mesh.num_face_vertices.size(); ++face) {
-            const std::size_t count = shape.mesh.num_face_vertices[face];
-            std::vector<glm::dvec3> polygon(count);
-            for (std::size_t i = 0; i < count; ++i)
-                polygon[i] =
-                    positions.at(static_cast<std::size_t>(shape.mesh.indices[first + i].vertex_index));
-            for (const auto& triangle : cutPolygon(polygon)) {
-                for (const std::size_t i : triangle)
-                    corners.push_back(shape.mesh.indices[first + i]);
-                triangle_materials.push_back(shape.mesh.material_ids[face]);
-            }
-            first += count;
+    // Three corners a triangle; the triangle's face; and the faces' own normals.
+    std::vector<Corner> corners;
+    std::vector<std::uint32_t> triangle_faces;
+    std::vector<glm::vec3> face_normals(faces);
+    std::array<std::size_t, 3> missing{};
+    const auto existing = [&](int index, std::size_t kind) {
+        if (index < 0 || static_cast<std::size_t>(index) < obj.counts[kind]) return std::max(index, -1);
+        ++missing[kind];
+        return -1;
+    };
+    bool smoothed = false;
+    std::size_t first = 0;
+    for (std::size_t face = 0; face < faces; ++face) {
+        const std::size_t count = shape.num_face_vertices[face];
+        std::vector<glm::dvec3> polygon(count);
+        std::vector<Corner> polygon_corners(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const tinyobj::index_t index = shape.indices.at(first + i);
+            polygon[i] = at3(attributes.vertices, index.vertex_index);
+            Corner& corner = polygon_corners[i];
+            corner = {index.vertex_index, existing(index.texcoord_index, 1), existing(index.normal_index, 2),
+                      0};
+            const bool has_normal = corner.normal >= 0 && unitOr(at3(attributes.normals, corner.normal),
+                                                                 glm::vec3(0.0F)) != glm::vec3(0.0F);
+            if (has_normal) continue;
+            const unsigned int group = shape.smoothing_group_ids.at(face);
+            corner.normal = -1;
+            corner.shading = group > 0 ? std::int64_t(group) : -std::int64_t(face) - 1;
+            smoothed = smoothed || group > 0;
+        }
+        first += count;
+        face_normals[face] = unitOr(areaNormal(polygon), glm::vec3(0.0F, 0.0F, 1.0F));
+        for (const auto& triangle : cutPolygon(polygon)) {
+            for (const std::size_t i : triangle)
+                corners.push_back(polygon_corners[i]);
+            triangle_faces.push_back(static_cast<std::uint32_t>(face));
         }
     }
+    for (const std::size_t kind : {1, 2})
+        if (missing[kind] > 0) obj.noteMissing(kind, obj.lineOfGreatest(kind), missing[kind]);
 
-    std::vector<std::array<std::uint32_t, 3>> triangles(triangle_materials.size());
-    bool normals_missing = false;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        triangles[i / 3][i % 3] = static_cast<std::uint32_t>(corners[i].vertex_index);
-        const int normal = corners[i].normal_index;
-        normals_missing = normals_missing || normal < 0 ||
-                          unitOr(at3(attributes.normals, normal), glm::vec3(0.0F)) == glm::vec3(0.0F);
-    }
+    // Normals of smoothing groups: one a position and group, from all of the group's triangles.
+    std::unordered_map<Corner, std::uint32_t, CornerHash> smooth_numbers;
     std::vector<glm::vec3> smooth_normals;
-    if (normals_missing) smooth_normals = angleWeightedNormals(positions, triangles);
+    if (smoothed) {
+        std::vector<glm::vec3> positions;
+        std::vector<std::array<std::uint32_t, 3>> triangles;
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const unsigned int group = shape.smoothing_group_ids.at(triangle_faces[i / 3]);
+            if (group == 0) continue;
+            if (i % 3 == 0) triangles.emplace_back();
+            const auto [known, is_new] = smooth_numbers.emplace(Corner{corners[i].position, 0, 0, group},
+                                                                static_cast<std::uint32_t>(positions.size()));
+            if (is_new) positions.push_back(at3(attributes.vertices, corners[i].position));
+            triangles.back()[i % 3] = known->second;
+        }
+        smooth_normals = angleWeightedNormals(positions, triangles);
+    }
 
     MeshData mesh;
-    mesh.materials = std::move(checked.materials);
-    const std::size_t default_material = mesh.materials.size(); // for faces before any usemtl
-    std::vector<std::vector<std::uint32_t>> indices_by_material(default_material + 1);
+    mesh.materials = std::move(obj.materials);
+    const std::vector<glm::vec4> colors = vertexColors(attributes.colors, path.string(), obj.notes);
+    std::vector<std::vector<std::uint32_t>> indices_by_material(mesh.materials.size());
     std::unordered_map<Corner, std::uint32_t, CornerHash> vertices;
     for (std::size_t i = 0; i < corners.size(); ++i) {
-        const Corner corner = {corners[i].vertex_index, corners[i].texcoord_index, corners[i].normal_index};
+        const Corner& corner = corners[i];
         const auto [vertex, is_new] =
             vertices.emplace(corner, static_cast<std::uint32_t>(mesh.positions.size()));
         if (is_new) {
             if (mesh.positions.size() == max_mesh_vertices)
                 throw fileError(path.string(), "has more than " + std::to_string(max_mesh_vertices) +
                                                    " vertices, simplify it");
-            const std::size_t position = static_cast<std::size_t>(corner.position);
-            mesh.positions.push_back(positions[position]);
-            glm::vec3 normal(0.0F, 0.0F, 1.0F); // of a vertex that only faces without area touch
-            if (normals_missing) normal = unitOr(smooth_normals[position], normal);
+            mesh.positions.push_back(at3(attributes.vertices, corner.position));
+            glm::vec3 normal = face_normals[triangle_faces[i / 3]];
             if (corner.normal >= 0) normal = unitOr(at3(attributes.normals, corner.normal), normal);
+            if (corner.shading > 0)
+                normal = unitOr(smooth_normals[smooth_numbers.at({corner.position, 0, 0, corner.shading})],
+                                normal);
             mesh.normals.push_back(normal);
             glm::vec2 uv(0.0F);
             if (corner.uv >= 0) {
@@ -489,16 +384,13 @@ MeshData loadObj(const std::filesystem::path& path) {
                 uv = glm::vec2(attributes.texcoords.at(k), 1.0F - attributes.texcoords.at(k + 1));
             }
             mesh.uvs.push_back(uv);
+            if (!colors.empty()) mesh.colors.push_back(colors[static_cast<std::size_t>(corner.position)]);
         }
-        const int material = triangle_materials[i / 3];
-        indices_by_material[material < 0 ? default_material : static_cast<std::size_t>(material)].push_back(
-            vertex->second);
+        indices_by_material[obj.face_materials[triangle_faces[i / 3]]].push_back(vertex->second);
     }
-    if (!indices_by_material[default_material].empty()) mesh.materials.emplace_back().name = "default";
     setParts(mesh, indices_by_material);
+    mesh.warnings = obj.notes.lines();
     return mesh;
 }
-
-std::vector<MaterialData> loadMtl(const std::filesystem::path& path) { return readMtl(path); }
 
 } // namespace gll

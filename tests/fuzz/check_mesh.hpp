@@ -16,6 +16,10 @@ inline void checkMesh(const MeshData& mesh) {
     const std::size_t vertices = mesh.positions.size();
     require(vertices > 0 && vertices <= max_mesh_vertices);
     require(mesh.normals.size() == vertices && mesh.uvs.size() == vertices);
+    require(mesh.colors.empty() || mesh.colors.size() == vertices);
+    for (const glm::vec4& color : mesh.colors)
+        for (int k = 0; k < 4; ++k)
+            require(color[k] >= 0.0F && color[k] <= 1.0F);
     require(mesh.tangents.empty() || mesh.tangents.size() == vertices);
     require(!mesh.indices.empty() && mesh.indices.size() <= max_mesh_indices);
     for (const std::uint32_t index : mesh.indices)

@@ -12,7 +12,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto library = fuzz::write(
         "a.mtl", at == std::string_view::npos ? std::string_view() : input.substr(at + border.size()));
     const auto mesh = fuzz::write("a.obj", input.substr(0, at));
-    fuzz::mayOnlyRefuse([&] { loadMtl(library); });
+    std::vector<std::string> warnings;
+    fuzz::mayOnlyRefuse([&] { loadMtl(library, warnings); });
     fuzz::mayOnlyRefuse([&] { fuzz::checkMesh(loadMesh(mesh)); });
     return 0;
 }

@@ -75,7 +75,9 @@ Scene::Scene(const std::filesystem::path& mesh, const std::filesystem::path& flo
     for (const MeshPart& part : data.parts)
         parts_.push_back({&statue_, part.material, part.first_index, part.index_count});
     // the floor's normals are exaggerated, or the mortar would not be seen
-    const MaterialData material = loadMtl(floor).front();
+    std::vector<std::string> floor_warnings;
+    const MaterialData material = loadMtl(floor, floor_warnings).front();
+    warnings.add(floor_warnings);
     surfaces_.push_back({.data = material,
                          .occluded_albedo = 0.5F,
                          .specular_scale = 0.4F,

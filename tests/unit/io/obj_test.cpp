@@ -32,6 +32,17 @@ float doubleArea(const MeshData& mesh) {
 
 std::string image() { return "\x89PNG only named, read later"; }
 
+// The only material of an MTL, whose statements begin at line 2. Where no warnings are asked for, there are
+// none.
+MaterialData only(const TemporaryFolder& folder, const std::string& statements,
+                  std::vector<std::string>* warnings = nullptr) {
+    std::vector<std::string> unexpected;
+    const auto path = folder.write("a.mtl", "newmtl a\n" + statements);
+    const MaterialData material = loadMtl(path, warnings == nullptr ? unexpected : *warnings).at(0);
+    EXPECT_EQ(unexpected, std::vector<std::string>());
+    return material;
+}
+
 } // namespace
 
 TEST(Obj, ATriangleComesOutAsItIsWritten) {
@@ -52,7 +63,7 @@ TEST(Obj, ATriangleComesOutAsItIsWritten) {
 TEST(Obj, RelativeIndicesCountBackFromTheLatestVertex) {
     const TemporaryFolder folder;
     const MeshData mesh = loadMesh(
-        folder.write("a.obj", "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 5 5\nf -4 -3 -2\n"));
+        folder.write("a.obj", "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\ns 1\nf -3 -2 -1\nv 5 5 5\nf -4 -3 -2\n"));
     EXPECT_EQ(mesh.indices, (std::vector<std::uint32_t>{0, 1, 2, 0, 1, 2}));
     EXPECT_EQ(mesh.positions[0], glm::vec3(0, 0, 0));
 }
@@ -127,14 +138,15 @@ TEST(Obj, APolygonOf255CornersIsRead) {
     EXPECT_NEAR(doubleArea(loadMesh(folder.write("a.obj", text + face))), 2.0F * 3.1413F, 1e-3f);
 }
 
-TEST(Obj, MissingNormalsAreSmoothAndDoNotDependOnTheDiagonals) {
+TEST(Obj, NormalsMissingInASmoothingGroupAreSmoothAndDoNotDependOnTheDiagonals) {
     const TemporaryFolder folder;
     // The corner of a box with sides 3, 2, 1: three right angles, so the mean normal is (1,1,1)/sqrt(3),
     // however large the faces and whichever way they are cut.
     for (const char* faces : {"f 1 2 3 4\nf 1 4 5 6\nf 1 6 7 2\n", "f 2 3 4 1\nf 4 5 6 1\nf 6 7 2 1\n",
                               "f 1 2 3\nf 1 3 4\nf 1 4 6\nf 4 5 6\nf 1 6 7 2\n"}) {
         const MeshData mesh = loadMesh(folder.write(
-            "a.obj", std::string("v 3 2 1\nv 0 2 1\nv 0 0 1\nv 3 0 1\nv 3 0 0\nv 3 2 0\nv 0 2 0\n") + faces));
+            "a.obj",
+            std::string("v 3 2 1\nv 0 2 1\nv 0 0 1\nv 3 0 1\nv 3 0 0\nv 3 2 0\nv 0 2 0\ns 1\n") + faces));
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
             EXPECT_NEAR(glm::length(mesh.normals[i]), 1.0F, 1e-6f);
             if (mesh.positions[i] == glm::vec3(3, 2, 1)) {
@@ -143,6 +155,41 @@ TEST(Obj, MissingNormalsAreSmoothAndDoNotDependOnTheDiagonals) {
         }
         EXPECT_EQ(mesh.uvs, std::vector<glm::vec2>(7, glm::vec2(0.0F)));
     }
+}
+
+TEST(Obj, WithoutASmoothingGroupFacesAreFlat) {
+    const TemporaryFolder folder;
+    // Two faces that meet at a right angle along vertices 1 and 2.
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\n";
+    for (const char* off : {"", "s off\n", "s 0\n", "s 1\ns off\n"}) {
+        const MeshData mesh = loadMesh(folder.write("a.obj", vertices + off + "f 1 2 3 4\nf 2 1 5 6\n"));
+        ASSERT_EQ(mesh.positions.size(), 8u) << off;
+        for (std::size_t i = 0; i < 8; ++i)
+            EXPECT_EQ(mesh.normals[i], i < 4 ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0)) << off;
+    }
+}
+
+TEST(Obj, NormalsAreSmoothWithinASmoothingGroupOnly) {
+    const TemporaryFolder folder;
+    // As above, and a third face that meets both at vertex 1, in a group of its own.
+    const std::string vertices = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\n";
+    const MeshData mesh =
+        loadMesh(folder.write("a.obj", vertices + "s 3\nf 1 2 3 4\nf 2 1 5 6\ns 7\nf 1 4 7 5\n"));
+    std::size_t at_corner = 0;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        if (mesh.positions[i] != glm::vec3(0, 0, 0)) continue;
+        ++at_corner;
+        const glm::vec3 smooth = glm::normalize(glm::vec3(0, 1, 1));
+        EXPECT_NEAR(std::min(glm::distance(mesh.normals[i], smooth),
+                             glm::distance(mesh.normals[i], glm::vec3(1, 0, 0))),
+                    0.0F, 1e-6F);
+    }
+    EXPECT_EQ(at_corner, 2u);
+    const MeshData on = loadMesh(folder.write("b.obj", vertices + "s on\nf 1 2 3 4\nf 2 1 5 6\n"));
+    EXPECT_EQ(on.positions.size(), 6u) << "'on' is a group too";
+    const MeshData given = loadMesh(
+        folder.write("c.obj", vertices + "vn 1 0 0\ns off\nf 1//1 2//1 3//1\ns 1\nf 1//1 3//1 4//1\n"));
+    EXPECT_EQ(given.normals, std::vector<glm::vec3>(4, glm::vec3(1, 0, 0))) << "a normal in the file counts";
 }
 
 TEST(Obj, AZeroNormalInTheFileIsReplacedByTheFacesOwn) {
@@ -161,12 +208,124 @@ TEST(Obj, FacesWithoutAreaStillHaveUnitNormals) {
 
 TEST(Obj, CornersThatAgreeInAllIndicesShareAVertex) {
     const TemporaryFolder folder;
-    const MeshData mesh = loadMesh(folder.write("a.obj", std::string(square) + "f 1 2 3\nf 1 3 4\n"));
+    const MeshData mesh = loadMesh(folder.write("a.obj", std::string(square) + "s 1\nf 1 2 3\nf 1 3 4\n"));
     EXPECT_EQ(mesh.positions.size(), 4u);
     const MeshData seam = loadMesh(
-        folder.write("b.obj", std::string(square) + "vt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/2 3/1 4/1\n"));
+        folder.write("b.obj", std::string(square) + "s 1\nvt 0 0\nvt 1 1\nf 1/1 2/1 3/1\nf 1/2 3/1 4/1\n"));
     EXPECT_EQ(seam.positions.size(), 5u);
     EXPECT_EQ(seam.normals, std::vector<glm::vec3>(5, glm::vec3(0, 0, 1)));
+}
+
+TEST(Obj, AByteOrderMarkIsNotPartOfTheFirstWord) {
+    const TemporaryFolder folder;
+    const MeshData mesh = loadMesh(folder.write("a.obj", "\xEF\xBB\xBFv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+    EXPECT_EQ(mesh.positions.size(), 3u);
+    folder.write("a.mtl", "\xEF\xBB\xBFnewmtl a\nKd 1 0 0\n");
+    std::vector<std::string> warnings;
+    EXPECT_EQ(loadMtl(folder.path() / "a.mtl", warnings).at(0).base_color, glm::vec4(1, 0, 0, 1));
+}
+
+TEST(Obj, ALineThatEndsInABackslashGoesOnInTheNext) {
+    const TemporaryFolder folder;
+    for (const std::string end : {"\n", "\r\n", "\r"}) {
+        const auto path = folder.write("a.obj", "# no continuation \\" + end + "v 0 0 0" + end + "v 1 \\" +
+                                                    end + "0 0" + end + "v 0 1 0" + end + "f 1 \\" + end +
+                                                    " 2\\" + end + " 3" + end + "v nan 0 0");
+        expectError(path, {":9: ", "'nan'"}, [&] { loadMesh(path); });
+        folder.write("a.obj", "v 0 0 0" + end + "v 1 \\" + end + "0 0" + end + "v 0 1 0" + end + "f 1 \\" +
+                                  end + " 2\\" + end + " 3" + end);
+        EXPECT_FLOAT_EQ(doubleArea(loadMesh(path)), 1.0F);
+    }
+}
+
+TEST(Obj, FacesMayComeBeforeTheirVertices) {
+    const TemporaryFolder folder;
+    const MeshData mesh = loadMesh(folder.write(
+        "a.obj", "f 1/1/1 2/2/1 3/3/1\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\n"));
+    EXPECT_FLOAT_EQ(doubleArea(mesh), 1.0F);
+    EXPECT_EQ(mesh.uvs, (std::vector<glm::vec2>{{0, 1}, {1, 1}, {0, 0}}));
+    EXPECT_TRUE(mesh.warnings.empty());
+}
+
+TEST(Obj, TextureCoordinatesAndNormalsThatDoNotExistAreLeftOut) {
+    const TemporaryFolder folder;
+    for (const char* face : {"f 1/1 2/2 3/3\n", "f 1/1/ 2/2/ 3/3/\n", "f 1/-1 2/-2 3/-9\n", "f 1/0 2/0 3/0\n",
+                             "f 1/99999999999999999999 2/4 3/5\n"}) {
+        const MeshData mesh = loadMesh(folder.write("a.obj", square + ("s off\n" + std::string(face))));
+        EXPECT_EQ(mesh.uvs, std::vector<glm::vec2>(3, glm::vec2(0.0F))) << face;
+        EXPECT_FLOAT_EQ(doubleArea(mesh), 1.0F) << face;
+        ASSERT_EQ(mesh.warnings.size(), 1u) << face;
+        EXPECT_EQ(mesh.warnings[0],
+                  (folder.path() / "a.obj").string() +
+                      ":6: a texture coordinate that does not exist is left out (and 2 more like it)")
+            << face;
+    }
+    const MeshData mesh = loadMesh(folder.write(
+        "a.obj", square + std::string("vt 0.5 0.5\nvn 0 0 2\nf 1/1/1 2/1/9 3/2/1\nf 1/1/0 3//1 4/1/-5\n")));
+    EXPECT_EQ(mesh.normals, std::vector<glm::vec3>(mesh.normals.size(), glm::vec3(0, 0, 1)));
+    EXPECT_EQ(std::count(mesh.uvs.begin(), mesh.uvs.end(), glm::vec2(0.5F)), 4);
+    EXPECT_EQ(mesh.warnings.size(), 2u);
+    EXPECT_TRUE(loadMesh(folder.write("b.obj", square + std::string("f 1/ 2// 3//\n"))).warnings.empty())
+        << "an index that is not written is none";
+}
+
+TEST(Obj, VertexColorsAreReadAsSrgb) {
+    const TemporaryFolder folder;
+    const MeshData mesh =
+        loadMesh(folder.write("a.obj", "v 0 0 0 1 0.5 0\nv 1 0 0\nv 0 1 0 0.02 1 7e-1\nf 1 2 3\n"));
+    ASSERT_EQ(mesh.colors.size(), 3u);
+    EXPECT_NEAR(glm::distance(mesh.colors[0], glm::vec4(1, 0.21404F, 0, 1)), 0.0F, 1e-4F);
+    EXPECT_EQ(mesh.colors[1], glm::vec4(1.0F)) << "without one: white";
+    EXPECT_NEAR(glm::distance(mesh.colors[2], glm::vec4(0.001548F, 1, 0.44799F, 1)), 0.0F, 1e-4F);
+    const MeshData bytes = loadMesh(
+        folder.write("b.obj", "v 0 0 0 255 0 0\nv 1 0 0 0 127.5 1e99999\nv 0 1 0 -3 nan 0\nf 1 2 3\n"));
+    ASSERT_EQ(bytes.colors.size(), 3u);
+    EXPECT_EQ(bytes.colors[0], glm::vec4(1, 0, 0, 1));
+    EXPECT_EQ(bytes.warnings.size(), 1u) << "that they are not 0 to 1 is said";
+    EXPECT_TRUE(loadMesh(folder.write("c.obj", std::string(square) + "f 1 2 3\n")).colors.empty());
+    EXPECT_TRUE(
+        loadMesh(folder.write("d.obj", "v 0 0 0 1\nv 1 0 0 0.5\nv 0 1 0 1 1 1\nf 1 2 3\n")).colors.empty())
+        << "a weight is no color";
+}
+
+TEST(Obj, WhatIsNoTriangleIsNamedOnce) {
+    const TemporaryFolder folder;
+    const auto path =
+        folder.write("a.obj", square + std::string("l 1 2\nl 2 3\np 1\nf 1 2\nf 1 2 3 # good\n"));
+    const MeshData mesh = loadMesh(path);
+    EXPECT_FLOAT_EQ(doubleArea(mesh), 1.0F);
+    EXPECT_EQ(mesh.warnings, (std::vector<std::string>{
+                                 path.string() + ":5: 'l' is not drawn (and 1 more like it)",
+                                 path.string() + ":7: 'p' is not drawn",
+                                 path.string() + ":8: a face of 2 corners is not drawn, 3 to 255 are"}));
+}
+
+TEST(Obj, AMissingLibraryOrMaterialIsDrawnInPlainGrey) {
+    const TemporaryFolder folder;
+    const auto path = folder.write(
+        "a.obj", square + std::string("mtllib gone.mtl\nusemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n"));
+    MeshData mesh = loadMesh(path);
+    ASSERT_EQ(mesh.warnings.size(), 1u) << "why a and b are missing has been said";
+    EXPECT_TRUE(mesh.warnings[0].starts_with(path.string() + ":5: material library: 'gone.mtl' is missing"));
+    ASSERT_EQ(mesh.materials.size(), 1u);
+    EXPECT_EQ(mesh.materials[0].base_color, glm::vec4(0.8F, 0.8F, 0.8F, 1.0F));
+    ASSERT_EQ(mesh.parts.size(), 1u);
+    EXPECT_EQ(mesh.parts[0].index_count, 6u);
+
+    folder.write("a.obj", square + std::string("usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\nusemtl a\nf 1 2 3\n"));
+    mesh = loadMesh(path);
+    EXPECT_EQ(mesh.warnings,
+              (std::vector<std::string>{
+                  path.string() + ":5: material 'a' is in no material library, drawn in plain grey",
+                  path.string() + ":7: material 'b' is in no material library, drawn in plain grey"}));
+    folder.write("late.mtl", "newmtl a\nKd 1 0 0\nnewmtl a\nKd 0 1 0\nnewmtl c\n");
+    mesh = loadMesh(folder.write(
+        "b.obj", square + std::string("usemtl a\nf 1 2 3\nmtllib late.mtl\nusemtl c\nf 1 3 4\n")));
+    ASSERT_EQ(mesh.parts.size(), 2u);
+    EXPECT_EQ(mesh.materials[mesh.parts[0].material].base_color, glm::vec4(1, 0, 0, 1))
+        << "the library may come later, and the first of a name counts";
+    EXPECT_EQ(mesh.materials[mesh.parts[1].material].name, "c");
+    EXPECT_TRUE(mesh.warnings.empty());
 }
 
 TEST(Obj, EachMaterialIsOnePart) {
@@ -182,6 +341,22 @@ TEST(Obj, EachMaterialIsOnePart) {
     EXPECT_EQ(mesh.parts[0].index_count, 6u);
     EXPECT_EQ(mesh.parts[1].first_index, 6u);
     EXPECT_EQ(mesh.parts[1].index_count, 6u);
+}
+
+TEST(Obj, NamesMayHaveAHashAndACommentMayFollowThem) {
+    const TemporaryFolder folder;
+    folder.write("a #1.mtl", "newmtl a #1\n");
+    folder.write("b.mtl", "newmtl b\n");
+    const MeshData mesh =
+        loadMesh(folder.write("a.obj", std::string("mtllib a #1.mtl\nmtllib b.mtl # a comment\n") + square +
+                                           "usemtl a #1\nf 1 2 3\nusemtl b # another\nf 1 3 4\n"));
+    EXPECT_EQ(mesh.warnings, std::vector<std::string>());
+    ASSERT_EQ(mesh.parts.size(), 2u);
+    EXPECT_EQ(mesh.materials[mesh.parts[0].material].name, "a #1");
+    EXPECT_EQ(mesh.materials[mesh.parts[1].material].name, "b");
+    const MeshData gone = loadMesh(folder.write(
+        "b.obj", square + std::string("mtllib gone with blanks.mtl  b.mtl gone too.mtl\nf 1 2 3\n")));
+    EXPECT_EQ(gone.warnings.size(), 2u) << "one a library";
 }
 
 TEST(Obj, ALibraryNameMayHaveBlanks) {
@@ -200,11 +375,13 @@ TEST(Mtl, NamesImagesChannelsAndFactors) {
         folder.write(name, image());
     const auto path =
         folder.write("a.mtl", "# made by hand\r\nnewmtl stone\r\nKd 0.5 0.25 1\r\nmap_Kd colour.jpg\r\n"
-                              "map_Ka -imfchan r maps/packed one.jpg\r\n"
+                              "map_ao -imfchan r maps/packed one.jpg\r\n"
                               "map_Pr -imfchan g maps\\packed one.jpg\r\nPr 0.75\r\n"
                               "map_Pm -imfchan b maps/packed one.jpg\r\n"
                               "norm normal.png\r\nmap_Bump -bm 1.0 other.png\r\nillum 2\r\nNs 10\r\n");
-    const std::vector<MaterialData> materials = loadMtl(path);
+    std::vector<std::string> warnings;
+    const std::vector<MaterialData> materials = loadMtl(path, warnings);
+    EXPECT_TRUE(warnings.empty());
     ASSERT_EQ(materials.size(), 1u);
     const MaterialData& stone = materials[0];
     EXPECT_EQ(stone.name, "stone");
@@ -217,23 +394,114 @@ TEST(Mtl, NamesImagesChannelsAndFactors) {
     EXPECT_EQ(stone.metallic, 1.0F) << "a map without a factor counts in full";
     EXPECT_EQ(stone.occlusion_texture.image, stone.roughness_texture.image) << "one file, one upload";
     EXPECT_EQ(stone.occlusion_texture.image.file.filename(), "packed one.jpg");
-    EXPECT_EQ(stone.normal_texture.image.file.filename(), "normal.png") << "norm goes before map_Bump";
+    EXPECT_EQ(stone.normal_texture.image.file.filename(), "normal.png");
+    EXPECT_EQ(stone.height_texture.image.file.filename(), "other.png") << "map_Bump holds heights";
 }
 
 TEST(Mtl, WithoutMapsASurfaceIsRoughAndNoMetal) {
     const TemporaryFolder folder;
-    const MaterialData plain = loadMtl(folder.write("a.mtl", "newmtl a\nKd 0.5\n")).at(0);
+    const MaterialData plain = only(folder, "Kd 0.5\n");
     EXPECT_EQ(plain.base_color, glm::vec4(0.5F, 0.5F, 0.5F, 1.0F));
     EXPECT_EQ(plain.roughness, 1.0F);
     EXPECT_EQ(plain.metallic, 0.0F);
     EXPECT_TRUE(plain.base_color_texture.image.empty());
+    EXPECT_EQ(plain.base_color_texture, TextureData()) << "repeated, as it is";
+    EXPECT_EQ(only(folder, "illum 2\n").base_color, glm::vec4(0.8F, 0.8F, 0.8F, 1.0F)) << "plain grey";
 }
 
-TEST(Mtl, MapBumpServesAsTheNormalMapWhereThereIsNoNorm) {
+TEST(Mtl, BumpIsAHeightWithAScale) {
     const TemporaryFolder folder;
-    folder.write("n.png", image());
-    EXPECT_EQ(loadMtl(folder.write("a.mtl", "newmtl a\nmap_Bump n.png\n"))
-                  .at(0)
-                  .normal_texture.image.file.filename(),
-              "n.png");
+    folder.write("h.png", image());
+    for (const char* keyword : {"map_Bump", "map_bump", "bump"}) {
+        const MaterialData material = only(folder, keyword + std::string(" -bm 0.25 h.png\n"));
+        EXPECT_TRUE(material.normal_texture.empty());
+        EXPECT_EQ(material.height_texture.image.file.filename(), "h.png");
+        EXPECT_EQ(material.height_scale, 0.25F);
+    }
+    EXPECT_EQ(only(folder, "bump h.png\n").height_scale, 1.0F);
+    for (const char* keyword : {"norm", "map_Kn", "map_kn"}) {
+        const MaterialData material = only(folder, keyword + std::string(" h.png\n"));
+        EXPECT_EQ(material.normal_texture.image.file.filename(), "h.png");
+        EXPECT_TRUE(material.height_texture.empty());
+    }
+}
+
+TEST(Mtl, AmbientColorIsNoOcclusion) {
+    const TemporaryFolder folder;
+    folder.write("a.png", image());
+    folder.write("b.png", image());
+    std::vector<std::string> warnings;
+    EXPECT_TRUE(only(folder, "map_Ka a.png\nmap_Kd a.png\n", &warnings).occlusion_texture.empty());
+    EXPECT_TRUE(warnings.empty()) << "the color once more, as exporters write it";
+    EXPECT_TRUE(only(folder, "map_Ka b.png\nmap_Kd a.png\n", &warnings).occlusion_texture.empty());
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find(":2: 'map_Ka' is not drawn"), std::string::npos) << warnings[0];
+    EXPECT_EQ(only(folder, "map_ao a.png\n").occlusion_texture.image.file.filename(), "a.png");
+    EXPECT_EQ(only(folder, "map_AO a.png\n").occlusion_texture.image.file.filename(), "a.png");
+}
+
+TEST(Mtl, TexturesAreScaledMovedAndClamped) {
+    const TemporaryFolder folder;
+    folder.write("2.png", image());
+    const auto texture = [&](const std::string& options) {
+        return only(folder, "map_Kd " + options + " 2.png\n").base_color_texture;
+    };
+    // The place (0.25, 0.75 up) of the mesh, v running down, and where that is in the image.
+    const auto at = [&](const std::string& options) {
+        return texture(options).uv_transform * glm::vec3(0.25F, 0.25F, 1.0F);
+    };
+    EXPECT_EQ(at(""), glm::vec2(0.25F, 0.25F));
+    EXPECT_EQ(at("-s 2 4"), glm::vec2(0.5F, 1.0F - 3.0F));
+    EXPECT_EQ(at("-s 2 4 1 -o 0.5 0.25 0"), glm::vec2(1.0F, 1.0F - 3.25F));
+    EXPECT_EQ(at("-o 0.5"), glm::vec2(0.75F, 0.25F)) << "numbers at the end may be left out";
+    EXPECT_EQ(texture("").wrap_u, TextureWrap::repeat);
+    EXPECT_EQ(texture("-clamp off").wrap_v, TextureWrap::repeat);
+    EXPECT_EQ(texture("-clamp on").wrap_u, TextureWrap::clamp_to_edge);
+    EXPECT_EQ(texture("-clamp on").wrap_v, TextureWrap::clamp_to_edge);
+    EXPECT_EQ(texture("-blendu on -mm 0 1 -t 0 0 0 -texres 512 -type sphere -boost 2").image.file.filename(),
+              "2.png");
+}
+
+TEST(Mtl, OpacityIsAMaskWhereItIsTheColorsAlpha) {
+    const TemporaryFolder folder;
+    folder.write("a.png", image());
+    folder.write("b.png", image());
+    std::vector<std::string> warnings;
+    EXPECT_EQ(only(folder, "map_d a.png\nmap_Kd a.png\nd 1\nTr 0\n", &warnings).alpha_mode, AlphaMode::mask);
+    EXPECT_TRUE(warnings.empty());
+    EXPECT_EQ(only(folder, "map_Kd a.png\nmap_d b.png\nd 0.5\nTr 0.5\n", &warnings).alpha_mode,
+              AlphaMode::opaque);
+    EXPECT_EQ(warnings.size(), 2u) << "another image, and (twice) half there";
+}
+
+TEST(Mtl, WhatCannotBeReadIsSaidAndTheRestDrawn) {
+    const TemporaryFolder folder;
+    folder.write("there.png", image());
+    const std::vector<std::pair<std::string, std::string>> lines = {
+        {"Kd 1 1", "a number is missing"},
+        {"Kd nan 1 1", "'nan'"},
+        {"Kd -1 1 1", "negative"},
+        {"Kd spectral file.rfl", "'spectral'"},
+        {"Pr 2", "0 to 1"},
+        {"map_Kd gone.png", "texture: 'gone.png' is missing"},
+        {"map_Kd", "file name is missing"},
+        {"map_Kd -imfchan r", "file name is missing"},
+        {"map_Pr -imfchan z there.png", "-imfchan"},
+        {"map_Pr -magic 3 there.png", "'-magic' is unknown"},
+        {"map_Ks there.png", "'map_Ks' is not drawn"},
+        {"disp there.png", "'disp' is not drawn"},
+        {"map_Kd C:\\textures\\there.png", "is taken from the file's own folder"},
+        {"map_Kd ../../textures/there.png", "is taken from the file's own folder"},
+    };
+    for (const auto& [line, message] : lines) {
+        std::vector<std::string> warnings;
+        const MaterialData material = only(folder, line + "\nKe 0.5\n", &warnings);
+        ASSERT_EQ(warnings.size(), 1u) << line;
+        EXPECT_TRUE(warnings[0].starts_with((folder.path() / "a.mtl").string() + ":2: ")) << warnings[0];
+        EXPECT_NE(warnings[0].find(message), std::string::npos) << warnings[0];
+        EXPECT_EQ(material.emitted_color, glm::vec3(0.5F)) << line;
+        EXPECT_EQ(material.base_color,
+                  glm::vec4(glm::vec3(material.base_color_texture.empty() ? 0.8F : 1.0F), 1.0F))
+            << line;
+    }
 }
