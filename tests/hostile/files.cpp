@@ -54,12 +54,27 @@ TEST(Files, withNothingInThemAreRefused) {
 TEST(Files, withABrokenMeshAreRefusedByLine) {
     expectFileRefused("--mesh", "mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", {"mesh.obj:4"});
     expectFileRefused("--mesh", "mesh.obj", "v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n", {"mesh.obj:2"});
-    expectFileRefused("--mesh", "mesh.obj", "mtllib no.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
-                      {"no.mtl"});
 }
 
-TEST(Files, withATextureThatIsMissingAreRefused) {
-    expectFileRefused("--floor", "floor.mtl", "newmtl a\nmap_Kd no.png\n", {"floor.mtl:2", "no.png"});
+TEST(Files, withMissingMaterialsAndTexturesAreDrawnAndTheTenFirstNamed) {
+    const TemporaryFolder folder;
+    std::string mesh = "mtllib no.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    folder.write("mesh.obj", mesh);
+    std::string floor = "newmtl a\nmap_Kd no.png\n";
+    for (int i = 0; i < 12; ++i)
+        floor += "map_Pr no_" + std::to_string(i) + ".png\n";
+    folder.write("floor.mtl", floor);
+    const Result result = run(rungCommand(folder, {"--size", "8x8", "--mesh", "mesh.obj", "--floor",
+                                                   "floor.mtl", "--frames", "1..3", "--out", "%d.png"}));
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 11) << result.err;
+    EXPECT_TRUE(
+        result.err.starts_with("10_deferred: warning: mesh.obj:1: material library: 'no.mtl' is missing"))
+        << result.err;
+    EXPECT_NE(result.err.find("\n10_deferred: warning: floor.mtl:2: texture: 'no.png' is missing"),
+              std::string::npos)
+        << result.err;
+    EXPECT_TRUE(result.err.ends_with("\n10_deferred: warning: ... and 4 more\n")) << result.err;
 }
 
 TEST(Files, withAnImageThatCannotBeReadAreDrawnWithoutItAndNamedOnceInABatch) {

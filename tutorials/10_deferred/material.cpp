@@ -1,6 +1,8 @@
 // Reading and packing a material's images.
 #include "material.hpp"
 
+#include "height_map.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -42,6 +44,27 @@ class ImageCache {
             image.pixels = std::move(bytes);
         }
         return &images_.emplace_back(source, std::move(image)).second;
+    }
+
+    // The image of a material's normals; heights are made into such first.
+    ImageSource normals(const MaterialData& material) {
+        ImageSource source = material.normal_texture.image;
+        if (source.empty() || material.normal_texture != material.height_texture) return source;
+        const Image* heights = get(source);
+        if (heights == nullptr) return source;
+        if (looksLikeNormalMap(*heights)) {
+            warnings_.add(
+                {source.name + ": is named as a bump map, has a normal map's colors and is drawn as one"});
+            return source;
+        }
+        Image made;
+        made.width = heights->width;
+        made.height = heights->height;
+        made.channels = 3;
+        made.pixels = normalsFromHeights(*heights, material.height_texture.channel, material.height_scale);
+        source.name += ", as normals"; // another than the heights, which may also be a color
+        images_.emplace_back(source, std::move(made));
+        return source;
     }
 
   private:
@@ -145,8 +168,8 @@ MaterialTextures loadMaterial(const MaterialData& material, MaterialFilter filte
     const float open = 1 - material.occlusion_strength;
     return {.base = packed(cache, material.base_color_texture.image, {255, 255, 255},
                            material.occlusion_texture, material.occlusion_strength, open, true, filter),
-            .surface = packed(cache, material.normal_texture.image, {128, 128, 255},
-                              material.roughness_texture, material.roughness, 0, false, filter)};
+            .surface = packed(cache, cache.normals(material), {128, 128, 255}, material.roughness_texture,
+                              material.roughness, 0, false, filter)};
 }
 
 } // namespace gll

@@ -19,7 +19,8 @@ struct MaterialTextures {
 
 // Reads the images of a material and packs them; one that is smaller than its texture is enlarged
 // bilinearly. Row 0 of an image is at v = 0. An image that cannot be read is named in a warning, and the
-// material is made without it.
+// material is made without it. A normal texture that is the height texture holds heights, unless its colors
+// are those of normals, which is then said.
 MaterialTextures loadMaterial(const MaterialData& material, MaterialFilter filter, Warnings& warnings);
 
 } // namespace gll

@@ -1,15 +1,19 @@
 // Loading the scene and listing its draws.
 #include "scene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <stdexcept>
 
 namespace gll {
 namespace {
 
 constexpr float statue_height = 2.2F;
+constexpr float statue_radius = 1.35F; // of the sphere round a model; the cat's is a little smaller
+constexpr float least_height = 0.005F;
 constexpr float floor_half_width = 6;
 constexpr float floor_uv_per_unit = 0.35F;
 
@@ -28,7 +32,8 @@ Mesh makeMesh(std::span<const Vertex> vertices, std::span<const std::uint32_t> i
                  .indices = indices});
 }
 
-// Scaled to the statue's height, its base on the floor, its middle on the y axis.
+// Stands on the floor with its middle on the y axis, as high as a statue and no wider than the circle in
+// which the camera sees all of it, and looks along +x, to where the camera is at first.
 Mesh makeStatue(const MeshData& data, const std::filesystem::path& path) {
     glm::vec3 lowest = data.positions.front();
     glm::vec3 highest = lowest;
@@ -36,15 +41,32 @@ Mesh makeStatue(const MeshData& data, const std::filesystem::path& path) {
         lowest = glm::min(lowest, position);
         highest = glm::max(highest, position);
     }
-    const float scale = statue_height / (highest.y - lowest.y);
+    const glm::dvec3 middle = 0.5 * (glm::dvec3(lowest) + glm::dvec3(highest));
+    double radius = 0;
+    for (const glm::vec3& position : data.positions)
+        radius = std::max(radius, glm::distance(glm::dvec3(position), middle));
+    const float height = highest.y - lowest.y;
+    const float scale = std::min(statue_height / height, static_cast<float>(statue_radius / radius));
     if (!std::isfinite(scale))
-        throw std::runtime_error(path.string() + ": is flat; a model to stand on the floor needs a height");
+        throw std::runtime_error(path.string() + ": all of its vertices lie at one place; export it again");
     const glm::vec3 base(0.5F * (lowest.x + highest.x), lowest.y, 0.5F * (lowest.z + highest.z));
+    // What lies flat would fight with the floor for each pixel.
+    const glm::vec3 lift(0, height * scale < least_height ? least_height : 0.0F, 0);
+    const auto turned = [&](const glm::vec3& v) {
+        return data.front_is_positive_z ? glm::vec3(v.z, v.y, -v.x) : v;
+    };
     std::vector<Vertex> vertices;
     vertices.reserve(data.positions.size());
     for (std::size_t i = 0; i < data.positions.size(); ++i)
-        vertices.push_back({(data.positions[i] - base) * scale, data.normals[i], data.uvs[i]});
+        vertices.push_back(
+            {turned((data.positions[i] - base) * scale) + lift, turned(data.normals[i]), data.uvs[i]});
     return makeMesh(vertices, data.indices);
+}
+
+// Heights stand in for the normals that a material has none of: see loadMaterial().
+MaterialData withNormals(MaterialData material) {
+    if (material.normal_texture.empty()) material.normal_texture = material.height_texture;
+    return material;
 }
 
 Mesh makeFloor() {
@@ -65,7 +87,7 @@ Scene::Scene(const std::filesystem::path& mesh, const std::filesystem::path& flo
     warnings.add(data.warnings);
     statue_ = makeStatue(data, mesh);
     for (const MaterialData& material : data.materials)
-        surfaces_.push_back({.data = material,
+        surfaces_.push_back({.data = withNormals(material),
                              .occluded_albedo = 0.55F,
                              .specular_scale = 0.6F,
                              .shininess = seed_shininess.x,
@@ -76,7 +98,7 @@ Scene::Scene(const std::filesystem::path& mesh, const std::filesystem::path& flo
         parts_.push_back({&statue_, part.material, part.first_index, part.index_count});
     // the floor's normals are exaggerated, or the mortar would not be seen
     std::vector<std::string> floor_warnings;
-    const MaterialData material = loadMtl(floor, floor_warnings).front();
+    const MaterialData material = withNormals(loadMtl(floor, floor_warnings).front());
     warnings.add(floor_warnings);
     surfaces_.push_back({.data = material,
                          .occluded_albedo = 0.5F,

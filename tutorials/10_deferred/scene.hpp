@@ -1,4 +1,4 @@
-// The scene of 10_deferred: a statue of height 2.2 on a floor of 12 x 12, both modelled in world space.
+// The scene of 10_deferred: a statue at most 2.2 high on a floor of 12 x 12, both modelled in world space.
 #pragma once
 
 #include "app/warnings.hpp"
