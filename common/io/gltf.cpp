@@ -1,7 +1,7 @@
-// Reads glTF 2.0 meshes and materials through tinygltf, from JSON that gltf_check.cpp has checked and
-// trimmed; what lies inside the buffers (indices, non-finite numbers) is checked here.
+// Reads glTF 2.0 meshes and materials. What the JSON says is checked in gltf_file.cpp as it is read; how it
+// fits together, and what lies inside the buffers (indices, numbers that are not finite), is checked here.
 #include "io/files.hpp"
-#include "io/gltf_check.hpp"
+#include "io/gltf_file.hpp"
 #include "io/mesh_build.hpp"
 
 #include <glm/geometric.hpp>
@@ -10,24 +10,55 @@
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 
-#include <fstream> // tinygltf without its file functions forgets it
-
-#define TINYGLTF_IMPLEMENTATION
-#define TINYGLTF_NO_STB_IMAGE
-#define TINYGLTF_NO_STB_IMAGE_WRITE
-#define TINYGLTF_NO_EXTERNAL_IMAGE
-#define TINYGLTF_NO_FS
-#include <tiny_gltf.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
-#include <limits>
+#include <optional>
+#include <set>
 #include <utility>
 
 namespace gll {
 namespace {
+
+using Values = std::array<double, 4>;
+
+// An accessor without a buffer view is all zeros but for its sparse values; it costs a file nothing to claim
+// many.
+constexpr std::size_t max_zero_elements = std::size_t(1) << 20;
+
+// Read as they are meant, or said to be left out where they are met. Unlit materials are lit.
+const std::vector<std::string_view> extensions_read = {"KHR_texture_transform", "KHR_mesh_quantization",
+                                                       "KHR_materials_emissive_strength",
+                                                       "KHR_materials_unlit"};
+
+// Not read, and the picture is the same without: files hold uncompressed data and PNG or JPEG images beside
+// these (where one does not, that is said), or they are about other things than one picture.
+constexpr std::string_view extensions_not_missed[] = {"KHR_draco_mesh_compression",
+                                                      "EXT_meshopt_compression",
+                                                      "KHR_meshopt_compression",
+                                                      "KHR_texture_basisu",
+                                                      "EXT_texture_webp",
+                                                      "EXT_texture_avif",
+                                                      "MSFT_texture_dds",
+                                                      "KHR_materials_variants",
+                                                      "KHR_animation_pointer",
+                                                      "KHR_xmp_json_ld",
+                                                      "KHR_xmp",
+                                                      "MSFT_lod",
+                                                      "EXT_structural_metadata",
+                                                      "EXT_mesh_features",
+                                                      "EXT_instance_features",
+                                                      "FB_ngon_encoding"};
+
+// --- numbers in buffers ---
+
+struct ComponentType {
+    std::size_t code = 0;
+    std::size_t bytes = 0;
+    double (*read)(const char*) = nullptr;
+    double largest = 0; // of whole numbers, what 1 is stored as where they are normalised
+};
 
 template <typename Stored>
 double stored(const char* bytes) {
@@ -36,209 +67,439 @@ double stored(const char* bytes) {
     return static_cast<double>(value);
 }
 
-// One component as the number it stands for; normalised integers by glTF 2.0, section 3.11.
-double component(const char* bytes, int type, bool normalized) {
-    switch (type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE: {
-        const double value = stored<std::int8_t>(bytes);
-        return normalized ? std::max(value / 127.0, -1.0) : value;
+constexpr std::size_t unsigned_byte = 5121;
+constexpr std::size_t unsigned_short = 5123;
+constexpr std::size_t unsigned_int = 5125;
+constexpr std::size_t single_float = 5126;
+constexpr ComponentType component_types[] = {{5120, 1, stored<std::int8_t>, 127},
+                                             {unsigned_byte, 1, stored<std::uint8_t>, 255},
+                                             {5122, 2, stored<std::int16_t>, 32767},
+                                             {unsigned_short, 2, stored<std::uint16_t>, 65535},
+                                             {unsigned_int, 4, stored<std::uint32_t>, 4294967295.0},
+                                             {single_float, 4, stored<float>, 1}};
+
+ComponentType componentType(const GltfValue& code) {
+    const std::size_t number = code.whole(5120, 5126);
+    for (const ComponentType& type : component_types)
+        if (type.code == number) return type;
+    code.fail("is none of glTF's types");
+}
+
+std::size_t componentCount(const GltfValue& type) {
+    constexpr std::pair<std::string_view, std::size_t> counts[] = {
+        {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
+    for (const auto& [name, count] : counts)
+        if (name == type.text()) return count;
+    type.fail("is " + inQuotes(type.text()) + ", none of glTF's types");
+}
+
+// A run of elements inside a buffer view, which holds all of them.
+struct Elements {
+    const char* first = nullptr; // null: all are zero
+    std::size_t stride = 0;      // bytes from one to the next
+};
+
+struct Accessor {
+    GltfValue place;
+    std::string type;
+    ComponentType component;
+    std::size_t components = 0; // of an element
+    std::size_t count = 0;
+    bool normalized = false;
+    Elements elements = {};
+    // of those that replace some elements
+    std::size_t sparse_count = 0;
+    ComponentType position_type = {};
+    Elements positions = {};
+    Elements replacements = {};
+};
+
+// Calls use(i, values) for every element i; a second time, with the values that count, for those that are
+// sparse. At most four components.
+template <typename Use>
+void forEachElement(const Accessor& accessor, const Use& use) {
+    Values values{};
+    const auto useElement = [&](std::size_t i, const char* bytes) {
+        for (std::size_t k = 0; k < accessor.components; ++k, bytes += accessor.component.bytes) {
+            values[k] = accessor.component.read(bytes);
+            if (accessor.normalized) values[k] = std::max(values[k] / accessor.component.largest, -1.0);
+            if (!std::isfinite(values[k]))
+                accessor.place.fail("element " + std::to_string(i) + " is not a finite number");
+        }
+        use(i, values);
+    };
+    for (std::size_t i = 0; i < accessor.count; ++i) {
+        if (accessor.elements.first != nullptr)
+            useElement(i, accessor.elements.first + i * accessor.elements.stride);
+        else
+            use(i, values);
     }
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return stored<std::uint8_t>(bytes) / (normalized ? 255.0 : 1.0);
-    case TINYGLTF_COMPONENT_TYPE_SHORT: {
-        const double value = stored<std::int16_t>(bytes);
-        return normalized ? std::max(value / 32767.0, -1.0) : value;
-    }
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-        return stored<std::uint16_t>(bytes) / (normalized ? 65535.0 : 1.0);
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        return stored<std::uint32_t>(bytes);
-    default:
-        return static_cast<double>(stored<float>(bytes));
+    for (std::size_t k = 0; k < accessor.sparse_count; ++k) {
+        const auto i = static_cast<std::size_t>(
+            accessor.position_type.read(accessor.positions.first + k * accessor.positions.stride));
+        if (i >= accessor.count)
+            accessor.place["sparse"]["indices"].fail("position " + std::to_string(i) +
+                                                     " is beyond the accessor's " +
+                                                     std::to_string(accessor.count) + " elements");
+        useElement(i, accessor.replacements.first + k * accessor.replacements.stride);
     }
 }
 
 class GltfReader {
   public:
-    explicit GltfReader(const std::filesystem::path& path) : name(path.string()), checked(checkGltf(path)) {
-        tinygltf::TinyGLTF loader;
-        std::string error;
-        std::string warning;
-        if (!loader.LoadASCIIFromString(&model, &error, &warning, checked.json.c_str(),
-                                        static_cast<unsigned>(checked.json.size()), ""))
-            throw fileError(name, "cannot be read (" + error.substr(0, error.find('\n')) + ")");
-    }
+    explicit GltfReader(const std::filesystem::path& path) : file_(path, extensions_read) {}
 
     MeshData run() {
-        for (const tinygltf::Material& material : model.materials)
-            mesh.materials.push_back(convert(material));
-        indices_by_material.resize(model.materials.size() + 1); // the last: primitives without a material
+        mesh_.front_is_positive_z = true; // glTF 2.0, section 3.4
+        const GltfValue used = file_["extensionsUsed"];
+        for (std::size_t i = 0; i < used.size(); ++i)
+            if (used[i].text() != "KHR_materials_unlit") warnOfExtension(used[i], used[i].text());
+        if (file_["animations"])
+            warn(file_["animations"], "animations are not read, nodes stand as they are");
 
         struct Visit {
-            int node;
+            std::size_t node;
             glm::dmat4 parent_to_world;
         };
         std::vector<Visit> pending;
-        for (const int root : model.scenes.at(0).nodes)
+        for (const std::size_t root : roots())
             pending.push_back({root, glm::dmat4(1.0)});
         while (!pending.empty()) {
             const Visit visit = pending.back();
             pending.pop_back();
-            const tinygltf::Node& node = model.nodes.at(static_cast<std::size_t>(visit.node));
-            const glm::dmat4 to_world = visit.parent_to_world * localTransform(node, visit.node);
-            if (node.mesh >= 0) addMesh(static_cast<std::size_t>(node.mesh), to_world);
-            for (const int child : node.children)
-                pending.push_back({child, to_world});
+            const GltfValue node = file_["nodes"][visit.node];
+            warnOfExtensions(node);
+            const glm::dmat4 to_world = visit.parent_to_world * localTransform(node);
+            if (const GltfValue mesh = node["mesh"]) {
+                const GltfValue skin = node["skin"];
+                if (skin) warn(skin, "skins are not read, the mesh is drawn where it was modelled");
+                // section 3.7.3.3: a skin's joints alone place its mesh
+                addMesh(mesh.in(file_["meshes"]), node, skin ? glm::dmat4(1.0) : to_world);
+            }
+            const GltfValue children = node["children"];
+            for (std::size_t i = 0; i < children.size(); ++i)
+                pending.push_back({children[i].index(file_["nodes"]), to_world});
         }
 
-        std::size_t index_count = 0;
-        for (const auto& indices : indices_by_material)
-            index_count += indices.size();
-        if (index_count == 0) throw fileError(name, "has no triangles in its scene, export it again");
-        if (!indices_by_material.back().empty()) mesh.materials.emplace_back(defaultMaterial());
-        if (!has_tangents) mesh.tangents.clear();
-        setParts(mesh, indices_by_material);
-        return std::move(mesh);
+        const std::size_t vertices = mesh_.positions.size();
+        if (vertices == 0)
+            throw fileError(file_.name(), "has no triangles in its scene, export it again" + skipped_);
+        if (!mesh_.second_uvs.empty()) mesh_.second_uvs.resize(vertices, glm::vec2(0.0F));
+        if (!mesh_.colors.empty()) mesh_.colors.resize(vertices, glm::vec4(1.0F));
+        if (!mesh_.tangents.empty()) mesh_.tangents.resize(vertices, glm::vec4(0.0F));
+        setParts(mesh_, indices_by_material_);
+        return std::move(mesh_);
     }
 
   private:
-    // --- materials ---
+    // --- what is left out ---
 
-    // glTF's default material is fully metallic, ours is not.
-    static MaterialData defaultMaterial() {
-        MaterialData material;
-        material.name = "default";
-        material.metallic = 1.0F;
-        return material;
+    // Each kind once, at its first place.
+    void warn(const GltfValue& place, const std::string& what) {
+        if (!warned_.insert(what).second) return;
+        mesh_.warnings.push_back(file_.name() + ": " + place.pointer() + ": " + what);
     }
 
-    ImageSource image(int texture) const {
-        if (texture < 0) return {};
-        return checked.images.at(
-            static_cast<std::size_t>(model.textures.at(static_cast<std::size_t>(texture)).source));
+    void warnOfExtension(const GltfValue& place, const std::string& extension) {
+        const auto in = [&](const auto& list) {
+            return std::find(std::begin(list), std::end(list), extension) != std::end(list);
+        };
+        if (!in(extensions_read) && !in(extensions_not_missed))
+            warn(place, "extension " + inQuotes(extension) + " is not read, drawn without");
     }
 
-    MaterialData convert(const tinygltf::Material& from) const {
-        MaterialData to;
-        to.name = from.name;
-        const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
-        to.base_color = glm::vec4(glm::make_vec4(pbr.baseColorFactor.data()));
-        to.base_color_texture.image = image(pbr.baseColorTexture.index);
-        to.emitted_color = glm::vec3(glm::make_vec3(from.emissiveFactor.data()));
-        const auto strength = from.extensions.find("KHR_materials_emissive_strength");
-        if (strength != from.extensions.end() && strength->second.Has("emissiveStrength"))
-            to.emitted_color *=
-                static_cast<float>(strength->second.Get("emissiveStrength").GetNumberAsDouble());
-        to.emitted_color_texture.image = image(from.emissiveTexture.index);
-        to.normal_texture.image = image(from.normalTexture.index);
-        to.normal_scale = static_cast<float>(from.normalTexture.scale);
-        to.occlusion_texture = {.image = image(from.occlusionTexture.index), .channel = 0};
-        to.occlusion_strength = static_cast<float>(from.occlusionTexture.strength);
-        to.roughness = static_cast<float>(pbr.roughnessFactor);
-        to.roughness_texture = {.image = image(pbr.metallicRoughnessTexture.index), .channel = 1};
-        to.metallic = static_cast<float>(pbr.metallicFactor);
-        to.metallic_texture = {.image = image(pbr.metallicRoughnessTexture.index), .channel = 2};
-        to.double_sided = from.doubleSided;
-        return to;
+    void warnOfExtensions(const GltfValue& object) {
+        for (const std::string& extension : object["extensions"].keys())
+            warnOfExtension(object["extensions"], extension);
+    }
+
+    void skip(const GltfValue& place, const std::string& what) {
+        warn(place, what);
+        if (skipped_.empty()) skipped_ = " (" + place.pointer() + " " + what + ")";
     }
 
     // --- nodes ---
 
-    glm::dmat4 localTransform(const tinygltf::Node& node, int number) const {
-        if (node.matrix.size() == 16) return glm::make_mat4(node.matrix.data());
-        glm::dmat4 transform(1.0);
-        if (node.rotation.size() == 4) {
-            const glm::dquat rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
-            const double length = glm::length(rotation);
-            if (!(length > 0.0))
-                throw fileError(name + ": /nodes/" + std::to_string(number) + "/rotation", "is all zero");
-            transform = glm::mat4_cast(rotation / length);
+    // The nodes that the scene to be read begins with.
+    std::vector<std::size_t> roots() {
+        const GltfValue nodes = file_["nodes"];
+        constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+        std::vector<std::size_t> parents(nodes.size(), none);
+        for (std::size_t i = 0; i < parents.size(); ++i) {
+            const GltfValue children = nodes[i]["children"];
+            for (std::size_t k = 0; k < children.size(); ++k) {
+                std::size_t& parent = parents[children[k].index(nodes)];
+                if (parent != none)
+                    children[k].fail("is already a child of node " + std::to_string(parent) +
+                                     ", a node has one parent");
+                parent = i;
+            }
         }
-        if (node.scale.size() == 3)
-            for (int i = 0; i < 3; ++i)
-                transform[i] *= node.scale[static_cast<std::size_t>(i)];
-        if (node.translation.size() == 3)
-            transform[3] = glm::dvec4(node.translation[0], node.translation[1], node.translation[2], 1.0);
+        // With one parent each, whatever does not reach a root within the limit is too deep or goes round.
+        for (std::size_t i = 0; i < parents.size(); ++i) {
+            std::size_t depth = 1;
+            for (std::size_t at = i; parents[at] != none; at = parents[at])
+                if (++depth > max_node_depth)
+                    nodes[i].fail("is its own ancestor or lies deeper than " +
+                                  std::to_string(max_node_depth) + " levels");
+        }
+
+        std::vector<std::size_t> roots;
+        const GltfValue scenes = file_["scenes"];
+        if (scenes.size() == 0) {
+            for (std::size_t i = 0; i < parents.size(); ++i)
+                if (parents[i] == none) roots.push_back(i);
+        } else {
+            const GltfValue chosen = file_["scene"];
+            const GltfValue listed = (chosen ? chosen.in(scenes) : scenes[0])["nodes"];
+            std::vector<bool> named(parents.size(), false);
+            for (std::size_t i = 0; i < listed.size(); ++i) {
+                const std::size_t node = listed[i].index(nodes);
+                if (named[node]) listed[i].fail("names a node twice");
+                named[node] = true;
+            }
+            for (std::size_t i = 0; i < listed.size(); ++i) {
+                const std::size_t node = listed[i].index(nodes);
+                bool drawn_by_ancestor = false;
+                for (std::size_t at = node; parents[at] != none; at = parents[at])
+                    drawn_by_ancestor = drawn_by_ancestor || named[parents[at]];
+                if (parents[node] != none)
+                    warn(listed[i], "is not a root node, as glTF wants it; drawn once, move it to the root");
+                if (!drawn_by_ancestor) roots.push_back(node);
+            }
+        }
+        if (roots.empty())
+            throw fileError(file_.name(), "has no nodes in its scene, nothing to draw; export it again");
+        return roots;
+    }
+
+    static glm::dmat4 localTransform(const GltfValue& node) {
+        if (node["matrix"]) return glm::make_mat4(node["matrix"].numbers<16>({}).data());
+        const auto translation = node["translation"].numbers<3>({0, 0, 0});
+        const auto rotation = node["rotation"].numbers<4>({0, 0, 0, 1}, -1.0, 1.0);
+        const auto scale = node["scale"].numbers<3>({1, 1, 1});
+        const glm::dquat quaternion(rotation[3], rotation[0], rotation[1], rotation[2]);
+        const double length = glm::length(quaternion);
+        if (!(length > 0.0)) node["rotation"].fail("is all zero");
+        glm::dmat4 transform = glm::mat4_cast(quaternion / length);
+        for (int i = 0; i < 3; ++i)
+            transform[i] *= scale[static_cast<std::size_t>(i)];
+        transform[3] = glm::dvec4(glm::make_vec3(translation.data()), 1.0);
         return transform;
+    }
+
+    // --- materials ---
+
+    TextureWrap wrap(const GltfValue& mode) {
+        switch (mode.whole(0, 65535, 10497)) {
+        case 33071:
+            return TextureWrap::clamp_to_edge;
+        case 33648:
+            return TextureWrap::mirrored_repeat;
+        case 10497:
+            break;
+        default:
+            warn(mode, "is none of glTF's wrap modes, drawn as repeat");
+        }
+        return TextureWrap::repeat;
+    }
+
+    TextureData texture(const GltfValue& info, int channel = 0) {
+        if (!info) return {};
+        const GltfValue texture = info.needed("index").in(file_["textures"]);
+        const GltfValue transform = info["extensions"]["KHR_texture_transform"];
+        const GltfValue set = transform["texCoord"] ? transform["texCoord"] : info["texCoord"];
+        TextureData data;
+        data.channel = channel;
+        data.uv_set = static_cast<int>(set.whole(0, 65535, 0));
+        if (data.uv_set > 1) {
+            warn(set, "texture coordinates beyond TEXCOORD_1 are not read, drawn without this texture");
+            return {};
+        }
+        if (!texture["source"]) {
+            std::string others;
+            for (const std::string& extension : texture["extensions"].keys())
+                others += " (but " + extension + ", which is not read)";
+            texture.fail("has no PNG or JPEG 'source'" + others + ", export one");
+        }
+        data.image = file_.image(texture["source"].in(file_["images"]));
+        if (transform) {
+            const auto offset = transform["offset"].numbers<2>({0, 0});
+            const auto scale = transform["scale"].numbers<2>({1, 1});
+            const double rotation_rad = transform["rotation"].number(0.0);
+            const double cosine = std::cos(rotation_rad);
+            const double sine = std::sin(rotation_rad);
+            // Counter-clockwise as one sees it, with v running down.
+            data.uv_transform = glm::dmat3x2(cosine * scale[0], -sine * scale[0], sine * scale[1],
+                                             cosine * scale[1], offset[0], offset[1]);
+        }
+        if (const GltfValue number = texture["sampler"]) {
+            const GltfValue sampler = number.in(file_["samplers"]);
+            data.wrap_u = wrap(sampler["wrapS"]);
+            data.wrap_v = wrap(sampler["wrapT"]);
+            constexpr std::size_t gl_nearest = 9728;
+            data.nearest = sampler["magFilter"].whole(0, 65535, 0) == gl_nearest;
+        }
+        return data;
+    }
+
+    MaterialData material(const GltfValue& from) {
+        MaterialData to;
+        to.name = from["name"].text(from ? "" : "default");
+        const GltfValue pbr = from["pbrMetallicRoughness"];
+        to.base_color = glm::make_vec4(pbr["baseColorFactor"].numbers<4>({1, 1, 1, 1}, 0.0, 1.0).data());
+        to.base_color_texture = texture(pbr["baseColorTexture"]);
+        to.roughness = static_cast<float>(pbr["roughnessFactor"].number(1.0, 0.0, 1.0));
+        to.roughness_texture = texture(pbr["metallicRoughnessTexture"], 1);
+        to.metallic = static_cast<float>(pbr["metallicFactor"].number(1.0, 0.0, 1.0));
+        to.metallic_texture = texture(pbr["metallicRoughnessTexture"], 2);
+        to.normal_texture = texture(from["normalTexture"]);
+        to.normal_scale = static_cast<float>(from["normalTexture"]["scale"].number(1.0));
+        to.occlusion_texture = texture(from["occlusionTexture"]);
+        to.occlusion_strength =
+            static_cast<float>(from["occlusionTexture"]["strength"].number(1.0, 0.0, 1.0));
+        const double strength =
+            from["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"].number(1.0, 0.0);
+        to.emitted_color = glm::vec3(
+            strength * glm::make_vec3(from["emissiveFactor"].numbers<3>({0, 0, 0}, 0.0, 1.0).data()));
+        to.emitted_color_texture = texture(from["emissiveTexture"]);
+        const std::string alpha_mode = from["alphaMode"].text("OPAQUE");
+        to.alpha_mode = alpha_mode == "MASK"    ? AlphaMode::mask
+                        : alpha_mode == "BLEND" ? AlphaMode::blend
+                                                : AlphaMode::opaque;
+        if (to.alpha_mode == AlphaMode::opaque && alpha_mode != "OPAQUE")
+            warn(from["alphaMode"], "is none of glTF's alpha modes, drawn opaque");
+        to.alpha_cutoff = static_cast<float>(from["alphaCutoff"].number(0.5, 0.0));
+        to.double_sided = from["doubleSided"].flag();
+        if (from["extensions"]["KHR_materials_unlit"])
+            warn(from["extensions"]["KHR_materials_unlit"], "unlit materials are lit like the others");
+        warnOfExtensions(from);
+        return to;
+    }
+
+    // Of MeshData::materials, read when first used; the one that glTF means where a primitive names none is
+    // fully metallic, unlike ours.
+    std::size_t materialNumber(const GltfValue& named) {
+        const GltfValue from =
+            named ? named.in(file_["materials"]) : GltfValue(file_.name(), nullptr, "/materials");
+        const auto [known, is_new] = material_numbers_.try_emplace(from.pointer(), mesh_.materials.size());
+        if (is_new) {
+            mesh_.materials.push_back(material(from));
+            indices_by_material_.emplace_back();
+        }
+        return known->second;
     }
 
     // --- accessors ---
 
-    const char* viewBytes(int view, std::size_t offset) const {
-        const tinygltf::BufferView& v = model.bufferViews.at(static_cast<std::size_t>(view));
-        return checked.buffers.at(static_cast<std::size_t>(v.buffer)).data() + v.byteOffset + offset;
+    // Where `count` elements of `bytes` each lie, from an offset into a view.
+    Elements elements(const GltfValue& view, const GltfValue& offset, std::size_t count, std::size_t bytes,
+                      const GltfValue& place) {
+        const std::string_view data = file_.bytes(view);
+        const std::size_t first = offset.whole(0, max_mesh_file_bytes, 0);
+        const std::size_t stride = view["byteStride"].whole(4, 252, bytes);
+        if (stride < bytes)
+            place.fail("has elements of " + std::to_string(bytes) + " bytes in a view of stride " +
+                       std::to_string(stride));
+        const std::size_t end = first + stride * (count - 1) + bytes; // all below 2^28: no overflow
+        if (end > data.size())
+            place.fail("ends at byte " + std::to_string(end) + " of a buffer view of " +
+                       std::to_string(data.size()));
+        return {.first = data.data() + first, .stride = stride};
     }
 
-    // Calls use(i, values) for every element i of an accessor of at most four components; a second time, with
-    // the values that count, for those that are sparse.
-    template <typename Use>
-    void forEachElement(int number, const Use& use) const {
-        const tinygltf::Accessor& accessor = model.accessors.at(static_cast<std::size_t>(number));
-        const std::size_t components = static_cast<std::size_t>(
-            tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
-        const std::size_t component_bytes = static_cast<std::size_t>(
-            tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType)));
-        std::array<double, 4> values{};
-        const auto useElement = [&](std::size_t i, const char* bytes) {
-            for (std::size_t k = 0; k < components; ++k) {
-                values[k] =
-                    component(bytes + k * component_bytes, accessor.componentType, accessor.normalized);
-                if (!std::isfinite(values[k]))
-                    throw fileError(name + ": /accessors/" + std::to_string(number),
-                                    "element " + std::to_string(i) + " is not a finite number");
-            }
-            use(i, values);
-        };
-        if (accessor.bufferView >= 0) {
-            const char* bytes = viewBytes(accessor.bufferView, accessor.byteOffset);
-            std::size_t stride = model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
-            if (stride == 0) stride = components * component_bytes;
-            for (std::size_t i = 0; i < accessor.count; ++i)
-                useElement(i, bytes + i * stride);
-        } else {
-            for (std::size_t i = 0; i < accessor.count; ++i)
-                use(i, values);
+    Accessor accessor(const GltfValue& number) {
+        const GltfValue place = number.in(file_["accessors"]);
+        const GltfValue views = file_["bufferViews"];
+        Accessor accessor{.place = place,
+                          .type = place.needed("type").text(),
+                          .component = componentType(place.needed("componentType")),
+                          .components = componentCount(place["type"]),
+                          .count = place.needed("count").whole(1, max_mesh_indices),
+                          .normalized = place["normalized"].flag()};
+        const std::size_t bytes = accessor.component.bytes * accessor.components;
+        if (const GltfValue view = place["bufferView"])
+            accessor.elements = elements(view.in(views), place["byteOffset"], accessor.count, bytes, place);
+        else if (accessor.count > max_zero_elements)
+            place.fail("has " + std::to_string(accessor.count) + " elements without a buffer view, at most " +
+                       std::to_string(max_zero_elements) + " are read");
+        if (const GltfValue sparse = place["sparse"]) {
+            accessor.sparse_count = sparse.needed("count").whole(1, accessor.count);
+            const auto part = [&](const GltfValue& data, std::size_t element_bytes) {
+                const GltfValue view = data.needed("bufferView").in(views);
+                if (view["byteStride"]) data["bufferView"].fail("has a stride, sparse data has none");
+                return elements(view, data["byteOffset"], accessor.sparse_count, element_bytes, data);
+            };
+            const GltfValue indices = sparse.needed("indices");
+            accessor.position_type = componentType(indices.needed("componentType"));
+            requireUnsigned(accessor.position_type, indices["componentType"]);
+            accessor.positions = part(indices, accessor.position_type.bytes);
+            accessor.replacements = part(sparse.needed("values"), bytes);
         }
-        if (!accessor.sparse.isSparse) return;
-        const auto& indices = accessor.sparse.indices;
-        const std::size_t index_bytes = static_cast<std::size_t>(
-            tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(indices.componentType)));
-        const char* index = viewBytes(indices.bufferView, static_cast<std::size_t>(indices.byteOffset));
-        const char* value = viewBytes(accessor.sparse.values.bufferView,
-                                      static_cast<std::size_t>(accessor.sparse.values.byteOffset));
-        for (int k = 0; k < accessor.sparse.count; ++k) {
-            const std::size_t i = static_cast<std::size_t>(component(index, indices.componentType, false));
-            if (i >= accessor.count)
-                throw fileError(name + ": /accessors/" + std::to_string(number) + "/sparse/indices",
-                                "position " + std::to_string(i) + " is beyond the accessor's " +
-                                    std::to_string(accessor.count) + " elements");
-            useElement(i, value);
-            index += index_bytes;
-            value += components * component_bytes;
-        }
+        return accessor;
+    }
+
+    static void requireUnsigned(const ComponentType& type, const GltfValue& place) {
+        if (type.code != unsigned_byte && type.code != unsigned_short && type.code != unsigned_int)
+            place.fail("is not SCALAR of unsigned whole numbers");
+    }
+
+    // An attribute, if the primitive has it; types as in glTF 2.0, section 3.7.2.1, and
+    // KHR_mesh_quantization.
+    std::optional<Accessor> attribute(const GltfValue& attributes, const char* key, std::string_view types,
+                                      bool small_unsigned, std::size_t vertices) {
+        const GltfValue number = attributes[key];
+        if (!number) return std::nullopt;
+        const Accessor found = accessor(number);
+        const std::size_t code = found.component.code;
+        const bool small = code <= unsigned_short;
+        const bool fits = code == single_float ||
+                          (small_unsigned && (code == unsigned_byte || code == unsigned_short)) ||
+                          (small && file_.requiresExtension("KHR_mesh_quantization"));
+        if (types.find(found.type) == std::string_view::npos || (!fits && !small))
+            number.fail("refers to an accessor of another type than " + std::string(types) + " of float" +
+                        (small_unsigned ? ", unsigned byte or unsigned short" : ""));
+        if (!fits)
+            number.fail("is stored in small whole numbers, name KHR_mesh_quantization in extensionsRequired");
+        if (found.count != vertices)
+            number.fail("has " + std::to_string(found.count) + " elements for " + std::to_string(vertices) +
+                        " vertices");
+        return found;
     }
 
     // --- meshes ---
 
-    void addMesh(std::size_t number, const glm::dmat4& to_world) {
-        const tinygltf::Mesh& from = model.meshes.at(number);
-        for (std::size_t i = 0; i < from.primitives.size(); ++i)
-            addPrimitive(from.primitives[i], to_world,
-                         "/meshes/" + std::to_string(number) + "/primitives/" + std::to_string(i));
+    void addMesh(const GltfValue& mesh, const GltfValue& node, const glm::dmat4& to_world) {
+        warnOfExtensions(mesh);
+        const GltfValue primitives = mesh.needed("primitives");
+        if (primitives.size() == 0) primitives.fail("is not an array of primitives");
+        const GltfValue weights = node["weights"] ? node["weights"] : mesh["weights"];
+        bool is_morphed = false;
+        for (std::size_t i = 0; i < weights.size(); ++i)
+            is_morphed = is_morphed || weights[i].number(0.0) != 0.0;
+        for (std::size_t i = 0; i < primitives.size(); ++i) {
+            if (is_morphed && primitives[i]["targets"])
+                warn(primitives[i]["targets"], "morph targets are not read, drawn without");
+            addPrimitive(primitives[i], to_world);
+        }
     }
 
     // The vertices' numbers three a triangle, whatever the mode.
-    std::vector<std::uint32_t> triangleIndices(const tinygltf::Primitive& primitive, std::size_t vertices,
-                                               const std::string& pointer) const {
+    std::vector<std::uint32_t> triangleIndices(const GltfValue& primitive, std::size_t mode,
+                                               std::size_t vertices) {
+        constexpr std::size_t triangles_mode = 4;
+        constexpr std::size_t strip_mode = 5;
         std::vector<std::uint32_t> order;
-        if (primitive.indices >= 0) {
-            order.resize(model.accessors.at(static_cast<std::size_t>(primitive.indices)).count);
-            forEachElement(primitive.indices, [&](std::size_t i, const std::array<double, 4>& values) {
+        if (const GltfValue indices = primitive["indices"]) {
+            const Accessor found = accessor(indices);
+            if (found.type != "SCALAR") indices.fail("is not SCALAR of unsigned whole numbers");
+            requireUnsigned(found.component, indices);
+            order.resize(found.count);
+            forEachElement(found, [&](std::size_t i, const Values& values) {
                 if (values[0] >= static_cast<double>(vertices))
-                    throw fileError(name + ": /accessors/" + std::to_string(primitive.indices),
-                                    "element " + std::to_string(i) + " is index " +
-                                        std::to_string(static_cast<std::uint32_t>(values[0])) + " of " +
-                                        std::to_string(vertices) + " vertices");
+                    found.place.fail("element " + std::to_string(i) + " is index " +
+                                     std::to_string(static_cast<std::uint32_t>(values[0])) + " of " +
+                                     std::to_string(vertices) + " vertices");
                 order[i] = static_cast<std::uint32_t>(values[0]);
             });
         } else {
@@ -246,18 +507,17 @@ class GltfReader {
             for (std::size_t i = 0; i < vertices; ++i)
                 order[i] = static_cast<std::uint32_t>(i);
         }
-        if (order.size() < 3 || (primitive.mode == TINYGLTF_MODE_TRIANGLES && order.size() % 3 != 0))
-            throw fileError(name + ": " + pointer,
-                            std::to_string(order.size()) + " corners do not make whole triangles");
-        if (primitive.mode == TINYGLTF_MODE_TRIANGLES) return order;
+        if (order.size() < 3 || (mode == triangles_mode && order.size() % 3 != 0))
+            primitive.fail(std::to_string(order.size()) + " corners do not make whole triangles");
+        if (mode == triangles_mode) return order;
 
         if (order.size() - 2 > max_mesh_indices / 3)
-            throw fileError(name + ": " + pointer, "has more than " + std::to_string(max_mesh_indices / 3) +
-                                                       " triangles, simplify it");
+            primitive.fail("has more than " + std::to_string(max_mesh_indices / 3) +
+                           " triangles, simplify it");
         std::vector<std::uint32_t> triangles;
         triangles.reserve((order.size() - 2) * 3);
         for (std::size_t i = 0; i + 2 < order.size(); ++i) {
-            if (primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP) // every other one is turned over
+            if (mode == strip_mode) // every other one is turned over
                 triangles.insert(triangles.end(), {order[i], order[i + 1 + i % 2], order[i + 2 - i % 2]});
             else
                 triangles.insert(triangles.end(), {order[i + 1], order[i + 2], order[0]});
@@ -265,39 +525,51 @@ class GltfReader {
         return triangles;
     }
 
-    void addPrimitive(const tinygltf::Primitive& primitive, const glm::dmat4& to_world,
-                      const std::string& pointer) {
-        if (primitive.mode < TINYGLTF_MODE_TRIANGLES) return; // points and lines
-        const auto attribute = [&](const char* key) {
-            const auto found = primitive.attributes.find(key);
-            return found == primitive.attributes.end() ? -1 : found->second;
-        };
-        const int positions = attribute("POSITION");
-        const int normals = attribute("NORMAL");
-        const int uvs = attribute("TEXCOORD_0");
-        const int tangents =
-            normals >= 0 ? attribute("TANGENT") : -1; // without normals glTF says to ignore them
+    void addPrimitive(const GltfValue& primitive, const glm::dmat4& to_world) {
+        warnOfExtensions(primitive);
+        const std::size_t mode = primitive["mode"].whole(0, 6, 4);
+        if (mode < 4) return skip(primitive["mode"], "says points or lines, which are not drawn");
+        const GltfValue attributes = primitive.needed("attributes");
+        const GltfValue position = attributes["POSITION"];
+        if (!position) return skip(attributes, "has no POSITION, not drawn");
+        const GltfValue draco = primitive["extensions"]["KHR_draco_mesh_compression"];
+        if (draco && !position.in(file_["accessors"])["bufferView"])
+            draco.fail("holds the only copy of the geometry, and is not read; export without compression");
 
-        std::size_t vertices = model.accessors.at(static_cast<std::size_t>(positions)).count;
-        std::vector<std::uint32_t> triangles = triangleIndices(primitive, vertices, pointer);
+        std::size_t vertices = accessor(position).count;
+        if (vertices > max_mesh_vertices)
+            position.fail("has more than " + std::to_string(max_mesh_vertices) + " vertices");
+        const Accessor positions = *attribute(attributes, "POSITION", "VEC3", false, vertices);
+        const auto normals = attribute(attributes, "NORMAL", "VEC3", false, vertices);
+        const auto uvs = attribute(attributes, "TEXCOORD_0", "VEC2", true, vertices);
+        auto tangents = attribute(attributes, "TANGENT", "VEC4", false, vertices);
+        if (!normals) tangents.reset(); // as glTF says
+        auto colors = attribute(attributes, "COLOR_0", "VEC3, VEC4", true, vertices);
+        std::vector<std::uint32_t> triangles = triangleIndices(primitive, mode, vertices);
+        const std::size_t material_number = materialNumber(primitive["material"]);
+        const MaterialData& material = mesh_.materials[material_number];
+        std::optional<Accessor> second_uvs;
+        for (const TextureData* texture :
+             {&material.base_color_texture, &material.roughness_texture, &material.metallic_texture,
+              &material.normal_texture, &material.occlusion_texture, &material.emitted_color_texture})
+            if (texture->uv_set == 1)
+                second_uvs = attribute(attributes, "TEXCOORD_1", "VEC2", true, vertices);
+
         // Without normals faces are flat, and flat faces share no vertices: vertex i is corner i.
         std::vector<std::uint32_t> corners;
-        if (normals < 0) {
+        if (!normals) {
             corners = triangles;
             for (std::size_t i = 0; i < triangles.size(); ++i)
                 triangles[i] = static_cast<std::uint32_t>(i);
         }
-        const std::size_t first = mesh.positions.size();
-        const std::size_t added = normals < 0 ? corners.size() : vertices;
-        std::vector<std::uint32_t>& indices = indices_by_material[static_cast<std::size_t>(
-            primitive.material < 0 ? static_cast<int>(model.materials.size()) : primitive.material)];
-        index_total += triangles.size();
-        vertices_read += vertices; // many nodes may use little of a large accessor
-        if (std::max(first + added, vertices_read) > max_mesh_vertices || index_total > max_mesh_indices)
-            throw fileError(name + ": " + pointer, "makes the scene larger than " +
-                                                       std::to_string(max_mesh_vertices) + " vertices or " +
-                                                       std::to_string(max_mesh_indices / 3) +
-                                                       " triangles, simplify it");
+        const std::size_t first = mesh_.positions.size();
+        const std::size_t added = normals ? vertices : corners.size();
+        index_total_ += triangles.size();
+        vertices_read_ += vertices; // many nodes may use little of a large accessor
+        if (std::max(first + added, vertices_read_) > max_mesh_vertices || index_total_ > max_mesh_indices)
+            primitive.fail("makes the scene larger than " + std::to_string(max_mesh_vertices) +
+                           " vertices or " + std::to_string(max_mesh_indices / 3) +
+                           " triangles, simplify it");
 
         // The cofactor matrix is the inverse transpose times the determinant, and exists for flattened shapes
         // too.
@@ -306,72 +578,76 @@ class GltfReader {
                                   glm::cross(linear[0], linear[1]));
         const double handedness = glm::dot(linear[0], cofactor[0]) < 0.0 ? -1.0 : 1.0;
 
-        mesh.positions.resize(first + added);
-        mesh.normals.resize(first + added, glm::vec3(0.0F, 0.0F, 1.0F));
-        mesh.uvs.resize(first + added, glm::vec2(0.0F));
-        mesh.tangents.resize(first + added, glm::vec4(0.0F));
-
-        std::vector<glm::vec3> world(vertices);
-        forEachElement(positions, [&](std::size_t i, const std::array<double, 4>& v) {
-            const glm::dvec4 position = to_world * glm::dvec4(v[0], v[1], v[2], 1.0);
+        // Element i of an attribute, converted, goes to every vertex that is made of it.
+        const auto fill = [&](auto& to, const Accessor& from, auto missing, const auto& convert) {
+            std::vector<decltype(missing)> read(vertices, missing);
+            forEachElement(from, [&](std::size_t i, const Values& values) { read[i] = convert(i, values); });
+            to.resize(first, missing); // as parts before this one have none
+            for (std::size_t i = 0; i < added; ++i)
+                to.push_back(read[normals ? i : corners[i]]);
+        };
+        const auto toUv = [](std::size_t, const Values& v) { return glm::vec2(v[0], v[1]); };
+        fill(mesh_.positions, positions, glm::vec3(0.0F), [&](std::size_t i, const Values& v) {
+            const glm::dvec4 world = to_world * glm::dvec4(v[0], v[1], v[2], 1.0);
             for (int k = 0; k < 3; ++k)
-                if (!(std::abs(position[k]) <= static_cast<double>(std::numeric_limits<float>::max())))
-                    throw fileError(name + ": " + pointer + "/attributes/POSITION",
-                                    "the nodes move vertex " + std::to_string(i) + " to infinity");
-            world[i] = glm::vec3(position);
+                if (!(std::abs(world[k]) <= GltfValue::largest))
+                    position.fail("the nodes move vertex " + std::to_string(i) + " to infinity");
+            return glm::vec3(world);
         });
-        std::vector<glm::vec2> file_uvs(uvs >= 0 ? vertices : 0);
-        if (uvs >= 0)
-            forEachElement(uvs, [&](std::size_t i, const std::array<double, 4>& v) {
-                file_uvs[i] = glm::vec2(static_cast<float>(v[0]), static_cast<float>(v[1]));
-            });
-        for (std::size_t i = 0; i < added; ++i) {
-            const std::size_t vertex = normals < 0 ? corners[i] : i;
-            mesh.positions[first + i] = world[vertex];
-            if (uvs >= 0) mesh.uvs[first + i] = file_uvs[vertex];
-        }
-        if (normals >= 0)
-            forEachElement(normals, [&](std::size_t i, const std::array<double, 4>& v) {
-                mesh.normals[first + i] =
+        mesh_.normals.resize(first + added, glm::vec3(0.0F, 0.0F, 1.0F));
+        if (normals) {
+            forEachElement(*normals, [&](std::size_t i, const Values& v) {
+                mesh_.normals[first + i] =
                     unitOr(cofactor * glm::dvec3(v[0], v[1], v[2]) * handedness, glm::vec3(0.0F, 0.0F, 1.0F));
             });
-        if (tangents >= 0) {
-            has_tangents = true;
-            forEachElement(tangents, [&](std::size_t i, const std::array<double, 4>& v) {
+        }
+        if (uvs) fill(mesh_.uvs, *uvs, glm::vec2(0.0F), toUv);
+        mesh_.uvs.resize(first + added, glm::vec2(0.0F));
+        if (second_uvs) fill(mesh_.second_uvs, *second_uvs, glm::vec2(0.0F), toUv);
+        if (tangents) {
+            fill(mesh_.tangents, *tangents, glm::vec4(0.0F), [&](std::size_t, const Values& v) {
                 const glm::vec3 tangent = unitOr(linear * glm::dvec3(v[0], v[1], v[2]), glm::vec3(0.0F));
                 const double sign = (v[3] < 0.0 ? -1.0 : 1.0) * handedness;
-                mesh.tangents[first + i] = tangent == glm::vec3(0.0F)
-                                               ? glm::vec4(0.0F)
-                                               : glm::vec4(tangent, static_cast<float>(sign));
+                return tangent == glm::vec3(0.0F) ? glm::vec4(0.0F)
+                                                  : glm::vec4(tangent, static_cast<float>(sign));
+            });
+        }
+        if (colors) {
+            colors->normalized =
+                colors->component.code != single_float; // the only meaning whole numbers have here
+            const bool has_alpha = colors->components == 4;
+            fill(mesh_.colors, *colors, glm::vec4(1.0F), [&](std::size_t, const Values& v) {
+                return glm::vec4(v[0], v[1], v[2], has_alpha ? v[3] : 1.0);
             });
         }
 
+        std::vector<std::uint32_t>& indices = indices_by_material_[material_number];
         indices.reserve(indices.size() + triangles.size());
         for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
             std::array<std::size_t, 3> corner = {first + triangles[i], first + triangles[i + 1],
                                                  first + triangles[i + 2]};
             if (handedness < 0.0) std::swap(corner[1], corner[2]); // a mirrored triangle shows its back
-            if (normals < 0) {
-                const glm::dvec3 a(mesh.positions[corner[0]]);
-                const glm::dvec3 b(mesh.positions[corner[1]]);
-                const glm::dvec3 c(mesh.positions[corner[2]]);
+            if (!normals) {
+                const glm::dvec3 a(mesh_.positions[corner[0]]);
+                const glm::dvec3 b(mesh_.positions[corner[1]]);
+                const glm::dvec3 c(mesh_.positions[corner[2]]);
                 const glm::vec3 flat = unitOr(glm::cross(b - a, c - a), glm::vec3(0.0F, 0.0F, 1.0F));
                 for (const std::size_t vertex : corner)
-                    mesh.normals[vertex] = flat;
+                    mesh_.normals[vertex] = flat;
             }
             for (const std::size_t vertex : corner)
                 indices.push_back(static_cast<std::uint32_t>(vertex));
         }
     }
 
-    const std::string name;
-    CheckedGltf checked;
-    tinygltf::Model model;
-    MeshData mesh;
-    std::vector<std::vector<std::uint32_t>> indices_by_material;
-    std::size_t index_total = 0;
-    std::size_t vertices_read = 0;
-    bool has_tangents = false;
+    GltfFile file_;
+    MeshData mesh_;
+    std::vector<std::vector<std::uint32_t>> indices_by_material_;
+    std::map<std::string, std::size_t> material_numbers_; // by pointer
+    std::set<std::string> warned_;
+    std::string skipped_; // why the first primitive that is not drawn is not
+    std::size_t index_total_ = 0;
+    std::size_t vertices_read_ = 0;
 };
 
 } // namespace

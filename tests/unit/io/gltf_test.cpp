@@ -277,3 +277,270 @@ TEST(Gltf, UnknownExtensionsAndExtrasThatAreNotRequiredAreSkipped) {
     maker.json["animations"] = "broken, but nobody reads it";
     EXPECT_EQ(load(folder, maker).positions, triangle);
 }
+
+// --- materials, colours and textures ---
+
+namespace {
+
+// A material on the triangle that reads an image: an image's texture is texture 0, with sampler 0.
+Json& textured(GltfMaker& maker) {
+    maker.json["images"] = {{{"uri", "data:image/png;base64,AAAA"}}};
+    maker.json["samplers"] = {Json::object()};
+    maker.json["textures"] = {{{"source", 0}, {"sampler", 0}}};
+    maker.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    maker.primitive()["material"] = 0;
+    return maker.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"];
+}
+
+// The one warning of a file, without its path.
+std::string onlyWarning(const MeshData& mesh) {
+    EXPECT_EQ(mesh.warnings.size(), 1u);
+    if (mesh.warnings.empty()) return "";
+    const std::size_t at = mesh.warnings.front().find("a.gltf: ");
+    EXPECT_NE(at, std::string::npos) << mesh.warnings.front();
+    return mesh.warnings.front().substr(at + 8);
+}
+
+} // namespace
+
+TEST(Gltf, VertexColorsAreLinearInFloatsBytesOrShorts) {
+    const TemporaryFolder folder;
+    const auto colors = [&](const std::string& bytes, int component_type, const char* type) {
+        GltfMaker maker;
+        maker.attributes()["NORMAL"] =
+            maker.accessor(packed<float>({0, 0, 1, 0, 0, 1, 0, 0, 1}), 5126, "VEC3", 3);
+        maker.attributes()["COLOR_0"] = maker.accessor(bytes, component_type, type, 3);
+        maker.json["accessors"].back()["normalized"] = component_type != 5126;
+        return load(folder, maker).colors;
+    };
+    const std::vector<glm::vec4> opaque = {{1, 0, 0, 1}, {0, 1, 0, 1}, {0, 0, 0.2F, 1}};
+    EXPECT_EQ(colors(packed<float>({1, 0, 0, 0, 1, 0, 0, 0, 0.2F}), 5126, "VEC3"), opaque);
+    EXPECT_EQ(colors(packed<std::uint16_t>({65535, 0, 0, 0, 65535, 0, 0, 0, 13107}), 5123, "VEC3"), opaque);
+    const std::vector<glm::vec4> clear = {{1, 0, 0, 0}, {0, 1, 0, 1}, {0, 0, 0.2F, 0.2F}};
+    EXPECT_EQ(colors(packed<std::uint8_t>({255, 0, 0, 0, 0, 255, 0, 255, 0, 0, 51, 51}), 5121, "VEC4"),
+              clear);
+    EXPECT_TRUE(load(folder, GltfMaker()).colors.empty());
+}
+
+TEST(Gltf, PartsWithoutColorsAreWhite) {
+    const TemporaryFolder folder;
+    GltfMaker maker;
+    const Json plain = maker.primitive();
+    maker.attributes()["COLOR_0"] =
+        maker.accessor(packed<float>({1, 0, 0, 1, 0, 0, 1, 0, 0}), 5126, "VEC3", 3);
+    maker.json["meshes"][0]["primitives"] = {plain, maker.primitive(), plain};
+    const MeshData mesh = load(folder, maker);
+    ASSERT_EQ(mesh.colors.size(), 9u);
+    for (std::size_t i = 0; i < 9; ++i)
+        EXPECT_EQ(mesh.colors[i], i / 3 == 1 ? glm::vec4(1, 0, 0, 1) : glm::vec4(1.0F)) << i;
+}
+
+TEST(Gltf, AlphaModesAndCutoffsAreRead) {
+    const TemporaryFolder folder;
+    GltfMaker maker;
+    maker.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0, 0.1}}}}}};
+    maker.primitive()["material"] = 0;
+    EXPECT_EQ(load(folder, maker).materials[0].alpha_mode, AlphaMode::opaque);
+    maker.json["materials"][0]["alphaMode"] = "MASK";
+    EXPECT_EQ(load(folder, maker).materials[0].alpha_mode, AlphaMode::mask);
+    EXPECT_EQ(load(folder, maker).materials[0].alpha_cutoff, 0.5F);
+    maker.json["materials"][0]["alphaCutoff"] = 0.25;
+    EXPECT_EQ(load(folder, maker).materials[0].alpha_cutoff, 0.25F);
+    maker.json["materials"][0]["alphaMode"] = "BLEND";
+    EXPECT_EQ(load(folder, maker).materials[0].alpha_mode, AlphaMode::blend);
+    EXPECT_EQ(load(folder, maker).materials[0].base_color.a, 0.1F);
+}
+
+TEST(Gltf, SamplersSayHowImagesRepeatAndEnlarge) {
+    const TemporaryFolder folder;
+    GltfMaker maker;
+    textured(maker);
+    maker.json["samplers"][0] = {{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}};
+    const TextureData texture = load(folder, maker).materials[0].base_color_texture;
+    EXPECT_EQ(texture.wrap_u, TextureWrap::clamp_to_edge);
+    EXPECT_EQ(texture.wrap_v, TextureWrap::mirrored_repeat);
+    EXPECT_TRUE(texture.nearest);
+    maker.json["samplers"][0] = {{"wrapS", 10497}, {"magFilter", 9729}};
+    const TextureData plain = load(folder, maker).materials[0].base_color_texture;
+    EXPECT_EQ(plain.wrap_u, TextureWrap::repeat);
+    EXPECT_EQ(plain.wrap_v, TextureWrap::repeat);
+    EXPECT_FALSE(plain.nearest);
+    maker.json["samplers"][0] = {{"wrapS", 10496}};
+    EXPECT_EQ(onlyWarning(load(folder, maker)),
+              "/samplers/0/wrapS: is none of glTF's wrap modes, drawn as repeat");
+}
+
+TEST(Gltf, TextureTransformsScaleThenTurnThenMove) {
+    const TemporaryFolder folder;
+    GltfMaker maker;
+    Json& info = textured(maker);
+    EXPECT_EQ(load(folder, maker).materials[0].base_color_texture.uv_transform, glm::mat3x2(1.0F));
+    info["extensions"]["KHR_texture_transform"] = {
+        {"offset", {0.5, 0.25}}, {"rotation", std::acos(0.0)}, {"scale", {2, 4}}};
+    const glm::mat3x2 transform = load(folder, maker).materials[0].base_color_texture.uv_transform;
+    // a quarter turn counter-clockwise as seen, v running down: u goes up, v goes right
+    const auto moved = [&](float u, float v) { return transform * glm::vec3(u, v, 1); };
+    EXPECT_NEAR(glm::distance(moved(0, 0), glm::vec2(0.5F, 0.25F)), 0.0F, 1e-6F);
+    EXPECT_NEAR(glm::distance(moved(1, 0), glm::vec2(0.5F, 0.25F - 2)), 0.0F, 1e-6F);
+    EXPECT_NEAR(glm::distance(moved(0, 1), glm::vec2(0.5F + 4, 0.25F)), 0.0F, 1e-6F);
+}
+
+TEST(Gltf, TheSecondSetOfTextureCoordinatesIsReadWhereATextureUsesIt) {
+    const TemporaryFolder folder;
+    GltfMaker maker;
+    Json& info = textured(maker);
+    const std::vector<glm::vec2> second = {{0.5F, 0}, {0, 0.5F}, {1, 1}};
+    maker.attributes()["TEXCOORD_1"] =
+        maker.accessor(packed<float>({0.5F, 0, 0, 0.5F, 1, 1}), 5126, "VEC2", 3);
+    EXPECT_TRUE(load(folder, maker).second_uvs.empty());
+    info["texCoord"] = 1;
+    EXPECT_EQ(load(folder, maker).second_uvs, second);
+    EXPECT_EQ(load(folder, maker).materials[0].base_color_texture.uv_set, 1);
+    info["extensions"]["KHR_texture_transform"]["texCoord"] = 0;
+    EXPECT_EQ(load(folder, maker).materials[0].base_color_texture.uv_set, 0) << "a transform may override it";
+    info["texCoord"] = 0;
+    info["extensions"]["KHR_texture_transform"]["texCoord"] = 1;
+    EXPECT_EQ(load(folder, maker).second_uvs, second);
+    info["extensions"]["KHR_texture_transform"]["texCoord"] = 2;
+    const MeshData third = load(folder, maker);
+    EXPECT_TRUE(third.materials[0].base_color_texture.empty());
+    EXPECT_EQ(onlyWarning(third),
+              "/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform/texCoord: "
+              "texture coordinates beyond TEXCOORD_1 are not read, drawn without this texture");
+}
+
+TEST(Gltf, QuantisedAttributesAreReadWhereTheFileRequiresThem) {
+    const TemporaryFolder folder;
+    GltfMaker maker;
+    maker.attributes()["POSITION"] =
+        maker.accessor(packed<std::int16_t>({0, 0, 0, 0, 100, 0, 0, 0, 0, -100, 0, 0}), 5122, "VEC3", 3);
+    maker.json["bufferViews"].back()["byteStride"] = 8;
+    maker.attributes()["NORMAL"] =
+        maker.accessor(packed<std::int8_t>({0, 0, 127, 0, 0, 0, 127, 0, 0, 0, 127, 0}), 5120, "VEC3", 3);
+    maker.json["accessors"].back()["normalized"] = true;
+    maker.json["bufferViews"].back()["byteStride"] = 4;
+    maker.attributes()["TEXCOORD_0"] =
+        maker.accessor(packed<std::uint16_t>({0, 2, 3, 0, 0, 0}), 5123, "VEC2", 3);
+    maker.json["nodes"][0]["scale"] = {0.5, 0.5, 0.5};
+    maker.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+    const MeshData mesh = load(folder, maker);
+    EXPECT_EQ(mesh.positions, (std::vector<glm::vec3>{{0, 0, 0}, {50, 0, 0}, {0, -50, 0}}));
+    EXPECT_EQ(mesh.normals[0], glm::vec3(0, 0, 1));
+    EXPECT_EQ(mesh.uvs[1], glm::vec2(3, 0)) << "whole numbers that are not normalised stand for themselves";
+}
+
+// --- what exporters do ---
+
+TEST(Gltf, RoundingOutOfRangeIsNoError) {
+    const TemporaryFolder folder;
+    GltfMaker maker;
+    maker.json["nodes"][0]["rotation"] = {0, 0, 0, 1.0000001192092896};
+    maker.json["materials"] = {
+        {{"pbrMetallicRoughness",
+          {{"baseColorFactor", {1.000001, -1e-6, 0, 1}}, {"roughnessFactor", 1.000009}}},
+         {"emissiveFactor", {1.0000001, 0, 0}}}};
+    maker.primitive()["material"] = 0;
+    const MeshData mesh = load(folder, maker);
+    EXPECT_EQ(mesh.positions, triangle);
+    EXPECT_EQ(mesh.materials[0].base_color, glm::vec4(1, 0, 0, 1)) << "moved into the range";
+    EXPECT_EQ(mesh.materials[0].roughness, 1.0F);
+}
+
+TEST(Gltf, APrimitiveWithoutPositionsIsSkipped) {
+    const TemporaryFolder folder;
+    GltfMaker maker;
+    maker.json["meshes"][0]["primitives"].push_back({{"attributes", {{"NORMAL", 0}}}});
+    const MeshData mesh = load(folder, maker);
+    EXPECT_EQ(mesh.positions, triangle);
+    EXPECT_EQ(onlyWarning(mesh), "/meshes/0/primitives/1/attributes: has no POSITION, not drawn");
+}
+
+TEST(Gltf, WhatTheSceneDoesNotUseMayBeBroken) {
+    const TemporaryFolder folder;
+    GltfMaker maker;
+    textured(maker);
+    maker.json["images"].push_back({{"uri", "missing.png"}});
+    maker.json["textures"].push_back({{"source", 1}});
+    maker.json["materials"].push_back({{"emissiveTexture", {{"index", 1}}}});
+    maker.json["accessors"].push_back({{"bufferView", 99}});
+    maker.json["meshes"].push_back({{"primitives", 7}});
+    maker.json["cameras"] = {{{"type", "broken"}}};
+    const MeshData mesh = load(folder, maker);
+    EXPECT_EQ(mesh.positions, triangle);
+    EXPECT_EQ(mesh.materials.size(), 1u);
+    EXPECT_TRUE(mesh.warnings.empty());
+}
+
+TEST(Gltf, ANodeOfTheSceneThatIsNoRootIsDrawnOnce) {
+    const TemporaryFolder folder;
+    GltfMaker maker;
+    maker.json["nodes"] = {{{"children", {1}}, {"translation", {5, 0, 0}}}, {{"mesh", 0}}};
+    maker.json["scenes"][0]["nodes"] = {0, 1};
+    const MeshData both = load(folder, maker);
+    ASSERT_EQ(both.positions.size(), 3u);
+    EXPECT_EQ(both.positions[0], glm::vec3(5, 0, 0)) << "below its parent";
+    EXPECT_EQ(onlyWarning(both),
+              "/scenes/0/nodes/1: is not a root node, as glTF wants it; drawn once, move it to the root");
+    maker.json["scenes"][0]["nodes"] = {1};
+    EXPECT_EQ(load(folder, maker).positions, triangle) << "its parent is not in the scene";
+}
+
+TEST(Gltf, ASkinnedNodesOwnTransformIsIgnored) {
+    const TemporaryFolder folder;
+    GltfMaker maker;
+    maker.json["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"scale", {1, 0.2, 1}}}, Json::object()};
+    maker.json["skins"] = {{{"joints", {1}}}};
+    const MeshData mesh = load(folder, maker);
+    EXPECT_EQ(mesh.positions, triangle);
+    EXPECT_EQ(onlyWarning(mesh),
+              "/nodes/0/skin: skins are not read, the mesh is drawn where it was modelled");
+}
+
+TEST(Gltf, ModelsFaceTowardsPositiveZ) {
+    const TemporaryFolder folder;
+    EXPECT_TRUE(load(folder, GltfMaker()).front_is_positive_z);
+}
+
+TEST(Gltf, OlderMinimumVersionsAreRead) {
+    const TemporaryFolder folder;
+    GltfMaker maker;
+    maker.json["asset"] = {{"version", "2.1"}, {"minVersion", "2.0"}};
+    EXPECT_EQ(load(folder, maker).positions, triangle);
+}
+
+// --- what is left out is said ---
+
+TEST(Gltf, WhatIsNotReadIsNamedOnce) {
+    const TemporaryFolder folder;
+    const auto warning = [&](const std::string& pointer, const Json& value) {
+        GltfMaker maker;
+        maker.json["materials"] = {Json::object()};
+        maker.primitive()["material"] = 0;
+        maker.json[Json::json_pointer(pointer)] = value;
+        return onlyWarning(load(folder, maker));
+    };
+    EXPECT_EQ(warning("/materials/0/extensions", {{"KHR_materials_unlit", Json::object()}}),
+              "/materials/0/extensions/KHR_materials_unlit: unlit materials are lit like the others");
+    EXPECT_EQ(warning("/materials/0/extensions", {{"KHR_materials_clearcoat", Json::object()}}),
+              "/materials/0/extensions: extension 'KHR_materials_clearcoat' is not read, drawn without");
+    EXPECT_EQ(warning("/extensionsUsed", {"EXT_mesh_gpu_instancing", "KHR_texture_basisu"}),
+              "/extensionsUsed/0: extension 'EXT_mesh_gpu_instancing' is not read, drawn without");
+    EXPECT_EQ(warning("/nodes/0/extensions", {{"KHR_lights_punctual", {{"light", 0}}}}),
+              "/nodes/0/extensions: extension 'KHR_lights_punctual' is not read, drawn without");
+    EXPECT_EQ(warning("/animations", {Json::object()}),
+              "/animations: animations are not read, nodes stand as they are");
+    EXPECT_EQ(warning("/materials/0/alphaMode", "HASHED"),
+              "/materials/0/alphaMode: is none of glTF's alpha modes, drawn opaque");
+    EXPECT_EQ(warning("/meshes/0/primitives/1", {{"mode", 1}, {"attributes", {{"POSITION", 0}}}}),
+              "/meshes/0/primitives/1/mode: says points or lines, which are not drawn");
+
+    GltfMaker morphed;
+    morphed.primitive()["targets"] = {{{"POSITION", 0}}};
+    EXPECT_TRUE(load(folder, morphed).warnings.empty()) << "weights are 0 where none are given";
+    morphed.json["meshes"][0]["weights"] = {1.0};
+    morphed.json["meshes"][0]["primitives"].push_back(morphed.primitive());
+    EXPECT_EQ(onlyWarning(load(folder, morphed)),
+              "/meshes/0/primitives/0/targets: morph targets are not read, drawn without");
+    morphed.json["nodes"][0]["weights"] = {0.0};
+    EXPECT_TRUE(load(folder, morphed).warnings.empty()) << "a node's weights are nearer";
+}
