@@ -88,7 +88,7 @@ void drawAll(const Pass& pass, const Mesh& full_screen_triangle) {
         (pass.mesh != nullptr ? *pass.mesh : full_screen_triangle).draw(pass.instances);
     }
     for (const Draw& draw : pass.draws) { // each from the pass's own values: no draw sees another's
-        Bindings bindings(pass.program);
+        Bindings bindings(draw.program != nullptr ? *draw.program : pass.program);
         bindings.set(pass.inputs, pass.uniforms);
         bindings.set(draw.inputs, draw.uniforms);
         bindings.requireAll();

@@ -26,13 +26,14 @@ enum class Cull { none, back };
 enum class Blend { replace, add }; // add: destination + source (ONE, ONE)
 
 // One draw call of a pass that has several: its mesh (or a part of it) and what it sets over the pass's own
-// inputs and uniforms, for itself alone.
+// program, inputs and uniforms, for itself alone.
 struct Draw {
     const Mesh& mesh;
     std::vector<Input> inputs = {};
     std::vector<UniformSetting> uniforms = {};
     std::uint32_t first_index = 0;
-    std::uint32_t index_count = 0; // 0: to the end of the mesh
+    std::uint32_t index_count = 0;    // 0: to the end of the mesh
+    const Program* program = nullptr; // null: the pass's
 };
 
 struct Pass {

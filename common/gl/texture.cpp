@@ -88,7 +88,7 @@ void Texture::allocate(GLenum layout, GLenum type, const void* pixels) {
     const bool mipmapped = description_.filter == Filter::trilinear;
     const auto set = [](GLenum name, GLint value) { glTexParameteri(GL_TEXTURE_2D, name, value); };
     set(GL_TEXTURE_MAX_LEVEL, description_.levels - 1);
-    set(GL_TEXTURE_MAG_FILTER, nearest ? GL_NEAREST : GL_LINEAR);
+    set(GL_TEXTURE_MAG_FILTER, nearest || description_.nearest_magnified ? GL_NEAREST : GL_LINEAR);
     set(GL_TEXTURE_MIN_FILTER, nearest ? GL_NEAREST : mipmapped ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
     set(GL_TEXTURE_WRAP_S, wrapMode(description_.wrap_x));
     set(GL_TEXTURE_WRAP_T, wrapMode(description_.wrap_y));

@@ -22,6 +22,7 @@ struct TextureDescription {
     glm::ivec2 size{1, 1}; // texels, both at least 1
     Format format = Format::rgba8;
     Filter filter = Filter::linear;
+    bool nearest_magnified = false; // whatever the filter, texels larger than pixels are squares
     Wrap wrap_x = Wrap::clamp_to_edge;
     Wrap wrap_y = Wrap::clamp_to_edge;
     int levels = 1;             // mip levels allocated; levelCount(size) for all of them

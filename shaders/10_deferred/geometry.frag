@@ -1,13 +1,31 @@
 #version 330 core
 // Evaluates the material once for each pixel and writes what lighting will need of it, for no light yet.
+// Variants, beside the layouts': VERTEX_COLOR, the mesh has colors; SEPARATE_MAPS, images are not packed in two;
+// ALPHA_MASK, which comes with SEPARATE_MAPS, the material has holes.
 #include "10_deferred/gbuffer.glsl"
 
 in vec3 world_position;
 in vec3 world_normal;
-in vec2 uv;
+in vec2 uv; // the normal map's, where maps are separate
+#ifdef VERTEX_COLOR
+in vec4 color; // linear, alpha: opacity
+#endif
+#ifdef SEPARATE_MAPS
+in vec2 base_uv;
+in vec2 occlusion_uv;
+in vec2 roughness_uv;
+#endif
 
-uniform sampler2D base_map;     // rgb: albedo (see albedoFrom), a: occlusion, 1 is open
+uniform sampler2D base_map;     // rgb: albedo (see albedoFrom), a: occlusion, 1 is open; separate: opacity
 uniform sampler2D surface_map;  // rgb: tangent-space normal in [0, 1], green up the image, a: roughness
+#ifdef SEPARATE_MAPS
+uniform sampler2D occlusion_map; // a: occlusion
+uniform sampler2D roughness_map; // a: roughness
+#endif
+#ifdef ALPHA_MASK
+uniform float opacity;      // of the whole material
+uniform float alpha_cutoff; // what has less is a hole
+#endif
 uniform vec3 base_color;        // linear, multiplies the albedo
 uniform float occluded_albedo;  // factor on the albedo where occlusion is 0, [0, 1]
 uniform float specular_scale;   // specular intensity of a perfectly smooth surface, [0, max_specular]
@@ -59,13 +77,51 @@ vec3 tangentNormal(vec3 texel) {
     return n * inversesqrt(max(dot(n, n), 1e-8));
 }
 
+// rgb: albedo as the image has it, a: occlusion
+vec4 baseTexel() {
+#ifdef SEPARATE_MAPS
+    return vec4(texture(base_map, base_uv).rgb, texture(occlusion_map, occlusion_uv).a);
+#else
+    return texture(base_map, uv);
+#endif
+}
+
+// rgb: normal, a: roughness
+vec4 surfaceTexel() {
+#ifdef SEPARATE_MAPS
+    return vec4(texture(surface_map, uv).rgb, texture(roughness_map, roughness_uv).a);
+#else
+    return texture(surface_map, uv);
+#endif
+}
+
+vec3 tint() {
+#ifdef VERTEX_COLOR
+    return base_color * color.rgb;
+#else
+    return base_color;
+#endif
+}
+
+// Last of all: derivatives need the neighbours that this may end.
+void cutHoles() {
+#ifdef ALPHA_MASK
+    float alpha = texture(base_map, base_uv).a * opacity;
+#ifdef VERTEX_COLOR
+    alpha *= color.a;
+#endif
+    if (alpha < alpha_cutoff) discard;
+#endif
+}
+
 // excerpt: geometry
 void main() {
-    vec4 base = texture(base_map, uv);
-    vec4 surface = texture(surface_map, uv);
-    vec3 albedo = albedoFrom(base.rgb) * base_color * mix(occluded_albedo, 1.0, base.a);
+    vec4 base = baseTexel();
+    vec4 surface = surfaceTexel();
+    vec3 albedo = albedoFrom(base.rgb) * tint() * mix(occluded_albedo, 1.0, base.a);
     float specular = (1.0 - surface.a) * specular_scale;
     vec3 normal = perturbedNormal(normalize(world_normal), tangentNormal(surface.rgb));
+    cutHoles();
 
 #if GBUFFER == GBUFFER_COMPACT
     albedo_out = vec4(albedo, packSpecular(specular, material));

@@ -178,13 +178,35 @@ class Deferred final : public Rung {
                 target.resize(occlusionSize(size));
     }
 
+    MaterialFilter materialFilter() const {
+        return options_.texture_filter == "bilinear"    ? MaterialFilter::bilinear
+               : options_.texture_filter == "mipmapped" ? MaterialFilter::mipmapped
+                                                        : MaterialFilter::anisotropic;
+    }
+
+    // Each draw with its variant of the program, and of its inputs and uniforms those that this one uses.
+    std::vector<Draw> withPrograms(const std::vector<Scene::VariantDraw>& scene, const std::string& stages,
+                                   const Defines& defines) {
+        std::vector<Draw> draws;
+        for (const auto& [draw, variant] : scene) {
+            const Program& program = shaders_.program(stages + ".vert", stages + ".frag", defines + variant);
+            Draw& added = draws.emplace_back(draw);
+            added.program = &program;
+            added.inputs = usedBy(program, draw.inputs);
+            added.uniforms = usedBy(program, draw.uniforms);
+        }
+        return draws;
+    }
+
     // excerpt: shadow
     void drawShadow(Frame& frame) {
         const bool offset = options_.shadow_bias == "slope";
+        const std::vector<Draw> draws =
+            withPrograms(scene_.depthDraws(materialFilter(), options_.flip_v), "10_deferred/shadow", {});
         frame.pass("shadow", shadow_,
-                   {.program = shaders_.program("10_deferred/shadow.vert", "10_deferred/shadow.frag"),
+                   {.program = *draws.front().program,
                     .uniforms = {{"light_clip_from_world", light_clip_from_world_}},
-                    .draws = scene_.depthDraws(),
+                    .draws = draws,
                     .depth_test = DepthTest::less,
                     .polygon_offset = offset ? std::optional(glm::vec2(2, 4)) : std::nullopt,
                     .clear_depth = 1.0F});
@@ -193,17 +215,11 @@ class Deferred final : public Rung {
 
     // excerpt: geometry
     void drawGeometry(Frame& frame) {
-        const MaterialFilter filter = options_.texture_filter == "bilinear"    ? MaterialFilter::bilinear
-                                      : options_.texture_filter == "mipmapped" ? MaterialFilter::mipmapped
-                                                                               : MaterialFilter::anisotropic;
-        const Program& program =
-            shaders_.program("10_deferred/geometry.vert", "10_deferred/geometry.frag",
-                             options_.gbuffer.defines() + options_.texture_filter.defines());
-        std::vector<Draw> draws = scene_.materialDraws(filter, options_.flip_v);
-        for (Draw& draw : draws)
-            draw.uniforms = usedBy(program, draw.uniforms);
+        const std::vector<Draw> draws =
+            withPrograms(scene_.materialDraws(materialFilter(), options_.flip_v), "10_deferred/geometry",
+                         options_.gbuffer.defines() + options_.texture_filter.defines());
         frame.pass("geometry", gbuffer_,
-                   {.program = program,
+                   {.program = *draws.front().program,
                     .uniforms = {{"clip_from_world", clip_from_view_ * view_from_world_}},
                     .draws = draws,
                     .depth_test = DepthTest::less,

@@ -67,6 +67,11 @@ class ImageCache {
         return source;
     }
 
+    bool hasAlpha(const ImageSource& source) {
+        const Image* image = get(source);
+        return image != nullptr && image->channels % 2 == 0;
+    }
+
   private:
     Warnings& warnings_;
     std::deque<std::pair<ImageSource, Image>> images_;
@@ -128,23 +133,50 @@ Bytes table(float factor, float offset) {
     return result;
 }
 
-Texture upload(const Bytes& pixels, glm::ivec2 size, bool is_color, MaterialFilter filter) {
+Wrap wrapOf(TextureWrap wrap) {
+    switch (wrap) {
+    case TextureWrap::mirrored_repeat:
+        return Wrap::mirrored_repeat;
+    case TextureWrap::clamp_to_edge:
+        return Wrap::clamp_to_edge;
+    case TextureWrap::repeat:
+        break;
+    }
+    return Wrap::repeat;
+}
+
+// Whether both are read between their texels and beyond their edges as images mostly are.
+bool plainlySampled(const TextureData& a, const TextureData& b) {
+    const auto plain = [](const TextureData& texture) {
+        return texture.wrap_u == TextureWrap::repeat && texture.wrap_v == TextureWrap::repeat &&
+               !texture.nearest;
+    };
+    return plain(a) && plain(b);
+}
+
+bool placedPlainly(const TextureData& texture) {
+    return texture.empty() || (texture.uv_set == 0 && texture.uv_transform == glm::mat3x2(1.0F));
+}
+
+Texture upload(const Bytes& pixels, glm::ivec2 size, bool is_color, MaterialFilter filter,
+               const TextureData& sampling) {
     const bool mipmapped = filter != MaterialFilter::bilinear;
     return Texture({.size = size,
                     .format = is_color && mipmapped ? Format::srgb8_alpha8 : Format::rgba8,
                     .filter = mipmapped ? Filter::trilinear : Filter::linear,
-                    .wrap_x = Wrap::repeat,
-                    .wrap_y = Wrap::repeat,
+                    .nearest_magnified = sampling.nearest,
+                    .wrap_x = wrapOf(sampling.wrap_u),
+                    .wrap_y = wrapOf(sampling.wrap_v),
                     .levels = mipmapped ? levelCount(size) : 1,
                     .anisotropy = filter == MaterialFilter::anisotropic ? 16.0F : 1.0F},
                    pixels);
 }
 
 // rgb from one image, alpha from a channel of another; what an absent image stands for is filled in.
-Texture packed(ImageCache& cache, const ImageSource& color, glm::ivec3 color_default,
+Texture packed(ImageCache& cache, const TextureData& color, glm::ivec3 color_default,
                const TextureData& alpha, float alpha_factor, float alpha_offset, bool is_color,
                MaterialFilter filter) {
-    const Image* color_image = cache.get(color);
+    const Image* color_image = cache.get(color.image);
     const Image* alpha_image = cache.get(alpha.image);
     const glm::ivec2 size = glm::max(sizeOf(color_image), sizeOf(alpha_image));
     Bytes pixels(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * 4);
@@ -158,18 +190,49 @@ Texture packed(ImageCache& cache, const ImageSource& color, glm::ivec3 color_def
         pixels[i] = byteOf(alpha_factor + alpha_offset);
     if (alpha_image != nullptr)
         putChannel(pixels, size, 3, *alpha_image, alpha.channel, table(alpha_factor, alpha_offset));
-    return upload(pixels, size, is_color, filter);
+    return upload(pixels, size, is_color, filter, color_image != nullptr ? color : alpha);
 }
 
 } // namespace
 
+bool needsSeparateMaps(const MaterialData& m) {
+    const auto share = [](const TextureData& a, const TextureData& b) {
+        return a.empty() || b.empty() || plainlySampled(a, b);
+    };
+    return m.alpha_mode == AlphaMode::mask || !placedPlainly(m.base_color_texture) ||
+           !placedPlainly(m.occlusion_texture) || !placedPlainly(m.normal_texture) ||
+           !placedPlainly(m.roughness_texture) || !share(m.base_color_texture, m.occlusion_texture) ||
+           !share(m.normal_texture, m.roughness_texture);
+}
+
 MaterialTextures loadMaterial(const MaterialData& material, MaterialFilter filter, Warnings& warnings) {
     ImageCache cache(warnings);
+    constexpr glm::ivec3 white(255);
+    constexpr glm::ivec3 flat(128, 128, 255);
     const float open = 1 - material.occlusion_strength;
-    return {.base = packed(cache, material.base_color_texture.image, {255, 255, 255},
-                           material.occlusion_texture, material.occlusion_strength, open, true, filter),
-            .surface = packed(cache, cache.normals(material), {128, 128, 255}, material.roughness_texture,
-                              material.roughness, 0, false, filter)};
+    TextureData normals = material.normal_texture;
+    normals.image = cache.normals(material);
+    const auto base = [&](const TextureData& alpha, float factor, float offset) {
+        return packed(cache, material.base_color_texture, white, alpha, factor, offset, true, filter);
+    };
+    const auto surface = [&](const TextureData& alpha, float factor) {
+        return packed(cache, normals, flat, alpha, factor, 0, false, filter);
+    };
+    const auto occlusion = [&](const auto& pack) {
+        return pack(material.occlusion_texture, material.occlusion_strength, open);
+    };
+    if (!needsSeparateMaps(material))
+        return {.base = occlusion(base), .surface = surface(material.roughness_texture, material.roughness)};
+    const auto alone = [&](const TextureData& alpha, float factor, float offset) {
+        return packed(cache, {}, white, alpha, factor, offset, false, filter);
+    };
+    TextureData opacity = material.base_color_texture;
+    opacity.channel = 3;
+    if (!cache.hasAlpha(opacity.image)) opacity = {};
+    return {.base = base(opacity, 1, 0),
+            .surface = surface({}, 1),
+            .occlusion = occlusion(alone),
+            .roughness = alone(material.roughness_texture, material.roughness, 0)};
 }
 
 } // namespace gll

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <stdexcept>
@@ -23,12 +24,32 @@ struct Vertex {
     glm::vec2 uv;
 };
 
-Mesh makeMesh(std::span<const Vertex> vertices, std::span<const std::uint32_t> indices) {
-    return Mesh({.vertices = std::as_bytes(vertices),
-                 .vertex_stride_bytes = sizeof(Vertex),
-                 .attributes = {{0, 3, offsetof(Vertex, position)},
-                                {1, 3, offsetof(Vertex, normal)},
-                                {2, 2, offsetof(Vertex, uv)}},
+// Vertices grow by colors and second_uvs where there are any.
+Mesh makeMesh(std::span<const Vertex> vertices, std::span<const std::uint32_t> indices,
+              std::span<const glm::vec4> colors = {}, std::span<const glm::vec2> second_uvs = {}) {
+    std::vector<VertexAttribute> attributes = {
+        {0, 3, offsetof(Vertex, position)}, {1, 3, offsetof(Vertex, normal)}, {2, 2, offsetof(Vertex, uv)}};
+    std::size_t stride = sizeof(Vertex);
+    const auto grow = [&](GLuint location, int components, std::size_t bytes) {
+        attributes.push_back({location, components, stride});
+        stride += bytes;
+    };
+    if (!colors.empty()) grow(3, 4, sizeof(glm::vec4));
+    if (!second_uvs.empty()) grow(4, 2, sizeof(glm::vec2));
+    std::vector<std::byte> bytes(vertices.size() * stride);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        std::byte* to = bytes.data() + i * stride;
+        const auto put = [&](const auto& value) {
+            std::memcpy(to, &value, sizeof value);
+            to += sizeof value;
+        };
+        put(vertices[i]);
+        if (!colors.empty()) put(colors[i]);
+        if (!second_uvs.empty()) put(second_uvs[i]);
+    }
+    return Mesh({.vertices = bytes,
+                 .vertex_stride_bytes = static_cast<int>(stride),
+                 .attributes = attributes,
                  .indices = indices});
 }
 
@@ -60,7 +81,7 @@ Mesh makeStatue(const MeshData& data, const std::filesystem::path& path) {
     for (std::size_t i = 0; i < data.positions.size(); ++i)
         vertices.push_back(
             {turned((data.positions[i] - base) * scale) + lift, turned(data.normals[i]), data.uvs[i]});
-    return makeMesh(vertices, data.indices);
+    return makeMesh(vertices, data.indices, data.colors, data.second_uvs);
 }
 
 // Heights stand in for the normals that a material has none of: see loadMaterial().
@@ -85,6 +106,7 @@ Scene::Scene(const std::filesystem::path& mesh, const std::filesystem::path& flo
     : warnings_(warnings), statue_(Mesh::fullScreenTriangle()), floor_(makeFloor()) {
     const MeshData data = loadMesh(mesh);
     warnings.add(data.warnings);
+    statue_has_colors_ = !data.colors.empty();
     statue_ = makeStatue(data, mesh);
     for (const MaterialData& material : data.materials)
         surfaces_.push_back({.data = withNormals(material),
@@ -110,28 +132,80 @@ Scene::Scene(const std::filesystem::path& mesh, const std::filesystem::path& flo
     parts_.push_back({&floor_, surfaces_.size() - 1, 0, 0});
 }
 
-std::vector<Draw> Scene::materialDraws(MaterialFilter filter, bool flip_v) {
-    std::vector<Draw> draws;
-    for (const Part& part : parts_) {
-        Surface& surface = surfaces_[part.surface];
-        std::optional<MaterialTextures>& textures = surface.textures[static_cast<std::size_t>(filter)];
-        if (!textures) textures = loadMaterial(surface.data, filter, warnings_);
-        draws.push_back({.mesh = *part.mesh,
-                         .inputs = {{"base_map", textures->base}, {"surface_map", textures->surface}},
-                         .uniforms = {{"base_color", glm::vec3(surface.data.base_color)},
-                                      {"occluded_albedo", surface.occluded_albedo},
-                                      {"specular_scale", surface.specular_scale},
-                                      {"shininess", surface.shininess},
-                                      {"normal_strength", surface.normal_strength},
-                                      {"material", surface.tag},
-                                      {"v_factor_offset",
-                                       flip_v && part.mesh == &statue_ ? glm::vec2(-1, 1) : glm::vec2(1, 0)}},
-                         .first_index = part.first_index,
-                         .index_count = part.index_count});
+const MaterialTextures& Scene::texturesOf(Surface& surface, MaterialFilter filter) {
+    std::optional<MaterialTextures>& textures = surface.textures[static_cast<std::size_t>(filter)];
+    if (!textures) textures = loadMaterial(surface.data, filter, warnings_);
+    return *textures;
+}
+
+Scene::VariantDraw Scene::drawOf(const Part& part, MaterialFilter filter, bool flip_v) {
+    Surface& surface = surfaces_[part.surface];
+    const MaterialData& data = surface.data;
+    const MaterialTextures& textures = texturesOf(surface, filter);
+    const bool of_statue = part.mesh == &statue_;
+    VariantDraw result = {
+        .draw = {.mesh = *part.mesh,
+                 .inputs = {{"base_map", textures.base}, {"surface_map", textures.surface}},
+                 .uniforms = {{"base_color", glm::vec3(data.base_color)},
+                              {"occluded_albedo", surface.occluded_albedo},
+                              {"specular_scale", surface.specular_scale},
+                              {"shininess", surface.shininess},
+                              {"normal_strength", surface.normal_strength},
+                              {"material", surface.tag},
+                              {"v_factor_offset", flip_v && of_statue ? glm::vec2(-1, 1) : glm::vec2(1, 0)}},
+                 .first_index = part.first_index,
+                 .index_count = part.index_count},
+        .variant = {}};
+    if (of_statue && statue_has_colors_) result.variant.push_back({"VERTEX_COLOR", "1"});
+    if (!needsSeparateMaps(data)) return result;
+
+    result.variant.push_back({"SEPARATE_MAPS", "1"});
+    result.draw.inputs.push_back({"occlusion_map", textures.occlusion});
+    result.draw.inputs.push_back({"roughness_map", textures.roughness});
+    const auto place = [&](const std::string& name, const TextureData& texture) {
+        const glm::mat3x2& t = texture.uv_transform;
+        result.draw.uniforms.push_back(
+            {name + "_transform", glm::mat3(glm::vec3(t[0], 0), glm::vec3(t[1], 0), glm::vec3(t[2], 1))});
+        result.draw.uniforms.push_back({name + "_uv_set", texture.uv_set});
+    };
+    place("base", data.base_color_texture);
+    place("occlusion", data.occlusion_texture);
+    place("normal", data.normal_texture);
+    place("roughness", data.roughness_texture);
+    if (data.alpha_mode == AlphaMode::mask) {
+        result.variant.push_back({"ALPHA_MASK", "1"});
+        result.draw.uniforms.push_back({"opacity", data.base_color.a});
+        result.draw.uniforms.push_back({"alpha_cutoff", data.alpha_cutoff});
     }
+    return result;
+}
+
+std::vector<Scene::VariantDraw> Scene::materialDraws(MaterialFilter filter, bool flip_v) {
+    std::vector<VariantDraw> draws;
+    for (const Part& part : parts_)
+        draws.push_back(drawOf(part, filter, flip_v));
     return draws;
 }
 
-std::vector<Draw> Scene::depthDraws() const { return {{.mesh = floor_}, {.mesh = statue_}}; }
+std::vector<Scene::VariantDraw> Scene::depthDraws(MaterialFilter filter, bool flip_v) {
+    const auto hasHoles = [&](const Part& part) {
+        return surfaces_[part.surface].data.alpha_mode == AlphaMode::mask;
+    };
+    std::vector<VariantDraw> draws = {{.draw = {.mesh = floor_}, .variant = {}}};
+    if (std::none_of(parts_.begin(), parts_.end(), hasHoles)) {
+        draws.push_back({.draw = {.mesh = statue_}, .variant = {}});
+        return draws;
+    }
+    for (const Part& part : parts_) {
+        if (part.mesh != &statue_) continue;
+        if (hasHoles(part))
+            draws.push_back(drawOf(part, filter, flip_v));
+        else
+            draws.push_back(
+                {.draw = {.mesh = statue_, .first_index = part.first_index, .index_count = part.index_count},
+                 .variant = {}});
+    }
+    return draws;
+}
 
 } // namespace gll

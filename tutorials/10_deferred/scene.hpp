@@ -18,11 +18,18 @@ class Scene {
     // Throws std::runtime_error naming the file that cannot be used. The warnings must outlive the scene.
     Scene(const std::filesystem::path& mesh, const std::filesystem::path& floor, Warnings& warnings);
 
-    // Attributes 0: position, 1: normal, 2: uv; nearest the camera first, so that the depth test spares what
-    // is behind. The draws last as long as the scene and until the next call with another filter.
-    // flip_v turns the statue's texture coordinates over.
-    std::vector<Draw> materialDraws(MaterialFilter filter, bool flip_v);
-    std::vector<Draw> depthDraws() const;
+    // A draw and the variant of the pass's shaders that it needs; its uniforms are those of every variant.
+    struct VariantDraw {
+        Draw draw;
+        Defines variant;
+    };
+
+    // Attributes 0: position, 1: normal, 2: uv, 3: color, 4: second uv; nearest the camera first, so that the
+    // depth test spares what is behind. The draws last as long as the scene and until the next call with
+    // another filter. flip_v turns the statue's texture coordinates over.
+    std::vector<VariantDraw> materialDraws(MaterialFilter filter, bool flip_v);
+    // Everything, without materials but for what has holes.
+    std::vector<VariantDraw> depthDraws(MaterialFilter filter, bool flip_v);
 
   private:
     struct Surface { // a material and how the seed treats it
@@ -36,9 +43,13 @@ class Scene {
         std::uint32_t first_index, index_count;
     };
 
+    const MaterialTextures& texturesOf(Surface& surface, MaterialFilter filter);
+    VariantDraw drawOf(const Part& part, MaterialFilter filter, bool flip_v);
+
     Warnings& warnings_;
     Mesh statue_;
     Mesh floor_;
+    bool statue_has_colors_ = false;
     std::vector<Surface> surfaces_;
     std::vector<Part> parts_;
 };
