@@ -71,6 +71,16 @@ vec3 perturbedNormal(vec3 normal, vec3 tangent_normal) {
 }
 // end excerpt
 
+// What has no inside is lit on the side that is seen. The order of its corners does not say alone which one that is,
+// as files wind their faces either way: its normal must lean away from the camera, too.
+vec3 seenNormal(vec3 normal) {
+#ifdef SHEET
+    vec3 towards_camera = cross(dFdx(world_position), dFdy(world_position));
+    if (!gl_FrontFacing && dot(towards_camera, normal) < 0.0) return -normal;
+#endif
+    return normal;
+}
+
 vec3 tangentNormal(vec3 texel) {
     vec3 n = texel * 2.0 - 1.0;
     n.xy *= normal_strength;
@@ -120,7 +130,7 @@ void main() {
     vec4 surface = surfaceTexel();
     vec3 albedo = albedoFrom(base.rgb) * tint() * mix(occluded_albedo, 1.0, base.a);
     float specular = (1.0 - surface.a) * specular_scale;
-    vec3 normal = perturbedNormal(normalize(world_normal), tangentNormal(surface.rgb));
+    vec3 normal = perturbedNormal(seenNormal(normalize(world_normal)), tangentNormal(surface.rgb));
     cutHoles();
 
 #if GBUFFER == GBUFFER_COMPACT

@@ -7,7 +7,10 @@
 #include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+#include <numeric>
 #include <stdexcept>
+#include <tuple>
 
 namespace gll {
 namespace {
@@ -84,6 +87,37 @@ Mesh makeStatue(const MeshData& data, const std::filesystem::path& path) {
     return makeMesh(vertices, data.indices, data.colors, data.second_uvs);
 }
 
+// Whether the model has no inside: it has no thickness, or an edge, told by the places of its ends, that its
+// triangles do not run along as often in one direction as in the other.
+bool isSheet(const MeshData& data) {
+    const std::vector<glm::vec3>& p = data.positions;
+    const auto before = [&](std::uint32_t a, std::uint32_t b) {
+        return std::tie(p[a].x, p[a].y, p[a].z) < std::tie(p[b].x, p[b].y, p[b].z);
+    };
+    std::vector<std::uint32_t> order(p.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(), before);
+    std::vector<std::uint64_t> place(p.size(), 0);
+    for (std::size_t i = 1; i < order.size(); ++i)
+        place[order[i]] = place[order[i - 1]] + (before(order[i - 1], order[i]) ? 1 : 0);
+
+    std::array<std::vector<std::uint64_t>, 2> edges; // towards the later place, and back
+    for (std::size_t i = 0; i < data.indices.size(); ++i) {
+        const std::uint64_t from = place[data.indices[i]];
+        const std::uint64_t to = place[data.indices[i % 3 == 2 ? i - 2 : i + 1]];
+        if (from != to) edges[from < to ? 0 : 1].push_back(std::min(from, to) << 32 | std::max(from, to));
+    }
+    for (std::vector<std::uint64_t>& direction : edges)
+        std::sort(direction.begin(), direction.end());
+    glm::vec3 lowest = p.front();
+    glm::vec3 highest = lowest;
+    for (const glm::vec3& position : p) {
+        lowest = glm::min(lowest, position);
+        highest = glm::max(highest, position);
+    }
+    return edges[0] != edges[1] || glm::any(glm::equal(lowest, highest));
+}
+
 // Heights stand in for the normals that a material has none of: see loadMaterial().
 MaterialData withNormals(MaterialData material) {
     if (material.normal_texture.empty()) material.normal_texture = material.height_texture;
@@ -107,6 +141,7 @@ Scene::Scene(const std::filesystem::path& mesh, const std::filesystem::path& flo
     const MeshData data = loadMesh(mesh);
     warnings.add(data.warnings);
     statue_has_colors_ = !data.colors.empty();
+    statue_is_sheet_ = isSheet(data);
     statue_ = makeStatue(data, mesh);
     for (const MaterialData& material : data.materials)
         surfaces_.push_back({.data = withNormals(material),
@@ -157,6 +192,7 @@ Scene::VariantDraw Scene::drawOf(const Part& part, MaterialFilter filter, bool f
                  .index_count = part.index_count},
         .variant = {}};
     if (of_statue && statue_has_colors_) result.variant.push_back({"VERTEX_COLOR", "1"});
+    if (of_statue && statue_is_sheet_) result.variant.push_back({"SHEET", "1"});
     if (!needsSeparateMaps(data)) return result;
 
     result.variant.push_back({"SEPARATE_MAPS", "1"});

@@ -50,6 +50,7 @@ class Scene {
     Mesh statue_;
     Mesh floor_;
     bool statue_has_colors_ = false;
+    bool statue_is_sheet_ = false;
     std::vector<Surface> surfaces_;
     std::vector<Part> parts_;
 };

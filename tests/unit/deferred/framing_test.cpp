@@ -1,10 +1,12 @@
 // How a model of any shape and size is set up: whole in the picture, at every frame, and on the floor.
+#include "gltf_maker.hpp"
 #include "io/image.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 #include <sstream>
@@ -96,6 +98,43 @@ TEST(Framing, showsAllOfAModelWheneverAndStandsItOnTheFloor) {
         EXPECT_LT(farthest, 1.36F) << name;
         EXPECT_GT(std::max(highest, farthest), 0.9F) << name << " is drawn as large as it may be";
     }
+}
+
+// The normal in the middle of frame 1, whose camera looks from +x; a model of this text alone on the floor.
+glm::vec3 normalInTheMiddle(const std::string& name, const std::string& text) {
+    const TemporaryFolder folder;
+    folder.write(name, text);
+    runToSuccess({GLLADDER_RUNG,
+                  {"--headless", "--mesh", name, "--target", "normal", "--size", "32x24", "--frame", "1",
+                   "--out", "normal.exr"},
+                  {},
+                  folder.path()});
+    const Image image = loadImage(folder.path() / "normal.exr");
+    const auto& values = std::get<std::vector<float>>(image.pixels);
+    const float* n = &values[static_cast<std::size_t>((12 * image.width + 16) * image.channels)];
+    return {n[0], n[1], n[2]};
+}
+
+TEST(Framing, turnsTheFrontOfAGltfToTheCamera) {
+    GltfMaker maker;
+    maker.attributes()["POSITION"] =
+        maker.accessor(packed<float>({-1, 0, 0, 1, 0, 0, -1, 2, 0, 1, 2, 0}), 5126, "VEC3", 4);
+    maker.primitive()["mode"] = 5; // a strip whose front is +z
+    const glm::vec3 normal = normalInTheMiddle("model.gltf", maker.gltf());
+    EXPECT_NEAR(glm::distance(normal, glm::vec3(1, 0, 0)), 0.0F, 1e-3F);
+}
+
+TEST(Framing, lightsASheetOnTheSideThatIsSeen) {
+    const std::string corners = "v 0 0 -1\nv 0 0 1\nv 0 2 1\nv 0 2 -1\n";
+    for (const char* face : {"f 1 2 3 4\n", "f 4 3 2 1\n", "vn 1 0 0\nf 1//1 2//1 3//1 4//1\n",
+                             "vn 1 0 0\nf 4//1 3//1 2//1 1//1\n"}) {
+        const glm::vec3 normal = normalInTheMiddle("model.obj", corners + face);
+        EXPECT_NEAR(glm::distance(normal, glm::vec3(1, 0, 0)), 0.0F, 1e-3F) << face;
+    }
+    // The far and the near side of a box, and what has no thickness at all.
+    EXPECT_NEAR(glm::distance(normalInTheMiddle("box.obj", box({1, 2, 2})), glm::vec3(1, 0, 0)), 0.0F, 1e-3F);
+    EXPECT_NEAR(glm::distance(normalInTheMiddle("flat.obj", box({0, 2, 2})), glm::vec3(1, 0, 0)), 0.0F,
+                1e-3F);
 }
 
 TEST(Framing, refusesAModelThatIsOnlyAPoint) {
