@@ -2,6 +2,7 @@
 #include "app/warnings.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace gll {
 

@@ -3,7 +3,13 @@
 #include "io/mesh_build.hpp"
 #include "io/statements.hpp"
 
+#include <algorithm>
 #include <array>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 namespace gll {
 namespace {

@@ -13,15 +13,19 @@
 #define TINYOBJLOADER_IMPLEMENTATION
 #include <tiny_obj_loader.h>
 
+#include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <functional>
 #include <map>
-#include <numeric>
 #include <set>
 #include <sstream>
+#include <string>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace gll {
 namespace {
@@ -62,7 +66,9 @@ class ObjText {
 
     std::string at(std::size_t line) const { return name_ + ":" + std::to_string(line); }
     char* inText(std::string_view part) { return text.data() + (part.data() - text.data()); }
-    void blank(std::string_view part) { std::fill_n(inText(part), part.size(), ' '); }
+    void blank(std::string_view part) {
+        if (!part.empty()) std::fill_n(inText(part), part.size(), ' ');
+    }
 
     void check(const Statement& s) {
         if (s.keyword == "v") return checkNumbers(s, 0, 3, 3);

@@ -2,9 +2,11 @@
 #include "height_map.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstddef>
 #include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <variant>
 
 namespace gll {
 
