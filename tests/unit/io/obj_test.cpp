@@ -73,7 +73,7 @@ TEST(Obj, LinesMayEndInCrlfOrCrAndHaveCommentsBlanksAndUnknownKeywords) {
     for (const std::string end : {"\n", "\r\n", "\r"}) {
         std::string text;
         for (const char* line : {"# a comment", "", "  v 0 0 0 1.0", "v\t1 +0 0 0.5 0.5 0.5", "v 0 1e0 0  ",
-                                 "o thing", "s off", "vp 0.1", "g a b", "f 1 2  3 "})
+                                 "o thing", "s off", "vp 0.1", "g a b", "g", "f 1 2  3 "})
             text += line + end;
         const MeshData mesh = loadMesh(folder.write("a.obj", text));
         EXPECT_FLOAT_EQ(doubleArea(mesh), 1.0F);
