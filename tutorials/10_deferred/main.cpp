@@ -97,7 +97,11 @@ class Deferred final : public Rung {
                  chosen(resources.given.floor, resources.files, "assets/brick/brick.mtl"),
                  resources.warnings),
           environment_(chosen(resources.given.environment, resources.files, "assets/sky/sky.hdr"),
-                       resources.warnings) {}
+                       resources.warnings) {
+        // the rung's own cat is what the original drew of it
+        const std::filesystem::path& mesh = resources.given.mesh;
+        if (!mesh.empty()) resources.warnings.add(scene_.notDrawn(mesh.string()));
+    }
 
     void render(Frame& frame) override {
         setUp(frame);

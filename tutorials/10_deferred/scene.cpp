@@ -167,6 +167,24 @@ Scene::Scene(const std::filesystem::path& mesh, const std::filesystem::path& flo
     parts_.push_back({&floor_, surfaces_.size() - 1, 0, 0});
 }
 
+std::vector<std::string> Scene::notDrawn(const std::string& where) const {
+    std::vector<std::string> lines;
+    const auto say = [&](const std::string& what, const auto& has) {
+        for (const Surface& surface : surfaces_)
+            if (surface.tag == 0 && has(surface.data)) {
+                lines.push_back(where + ": material '" + surface.data.name + "' " + what);
+                return;
+            }
+    };
+    say("blends with what is behind it, and is drawn opaque",
+        [](const MaterialData& data) { return data.alpha_mode == AlphaMode::blend; });
+    say("is metallic, and is drawn as if it were not",
+        [](const MaterialData& data) { return data.metallic > 0.0F; });
+    say("emits light, which is not drawn",
+        [](const MaterialData& data) { return data.emitted_color != glm::vec3(0.0F); });
+    return lines;
+}
+
 const MaterialTextures& Scene::texturesOf(Surface& surface, MaterialFilter filter) {
     std::optional<MaterialTextures>& textures = surface.textures[static_cast<std::size_t>(filter)];
     if (!textures) textures = loadMaterial(surface.data, filter, warnings_);
