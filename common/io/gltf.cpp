@@ -4,6 +4,7 @@
 #include "io/gltf_file.hpp"
 #include "io/mesh_build.hpp"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -617,7 +618,8 @@ class GltfReader {
                 colors->component.code != single_float; // the only meaning whole numbers have here
             const bool has_alpha = colors->components == 4;
             fill(mesh_.colors, *colors, glm::vec4(1.0F), [&](std::size_t, const Values& v) {
-                return glm::vec4(v[0], v[1], v[2], has_alpha ? v[3] : 1.0);
+                const glm::dvec4 color(v[0], v[1], v[2], has_alpha ? v[3] : 1.0);
+                return glm::vec4(glm::clamp(color, 0.0, 1.0));
             });
         }
 

@@ -82,7 +82,7 @@ struct MeshData {
     // rows in their order and a texture lookup needs no flip. Where a file has none: zero.
     std::vector<glm::vec2> uvs;
     std::vector<glm::vec2> second_uvs; // of TextureData::uv_set 1; empty if no texture of the file uses them
-    // Linear, multiplied onto the base color; alpha onto its alpha. Empty if the file has none, else white
+    // Linear, 0 to 1, multiplied onto the base color; alpha onto its alpha. Empty if the file has none, else white
     // where it has none.
     std::vector<glm::vec4> colors;
     // Empty if no part of the file has any; else xyz of unit length and w = +-1, or all zero where it has

@@ -20,6 +20,9 @@ inline void checkMesh(const MeshData& mesh) {
     for (const glm::vec4& color : mesh.colors)
         for (int k = 0; k < 4; ++k)
             require(color[k] >= 0.0F && color[k] <= 1.0F);
+    require(mesh.second_uvs.empty() || mesh.second_uvs.size() == vertices);
+    for (const glm::vec2& uv : mesh.second_uvs)
+        require(std::isfinite(uv.x) && std::isfinite(uv.y));
     require(mesh.tangents.empty() || mesh.tangents.size() == vertices);
     require(!mesh.indices.empty() && mesh.indices.size() <= max_mesh_indices);
     for (const std::uint32_t index : mesh.indices)
