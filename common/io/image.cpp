@@ -21,6 +21,7 @@
 #include <system_error>
 
 #include <unistd.h>
+#include <utility>
 
 namespace gll {
 namespace {

@@ -2,8 +2,10 @@
 // reader knows neither the older run lengths nor what the header says of exposure, colors and orientation.
 #include "io/image_read.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace gll {
 namespace {

@@ -3,6 +3,8 @@
 
 #include "io/image.hpp"
 
+#include <array>
+
 using namespace gll;
 using namespace gll::test;
 using namespace std::string_literals;
