@@ -2,7 +2,7 @@
 // is lost or made, how round it is, and what a person would see.
 #include "charts/bloom.hpp"
 
-#include "charts/frames.hpp"
+#include "charts/bloom_methods.hpp"
 #include "charts/spline_energy.hpp"
 #include "measure/errors.hpp"
 #include "measure/flip.hpp"
@@ -28,6 +28,10 @@ constexpr glm::ivec2 pyramid_cost_size{640, 360};
 constexpr glm::ivec2 gaussian_cost_size{320, 180};
 // Divided by 64 without a rest: these pictures are about filters, the sizes below about sizes.
 constexpr glm::ivec2 scene_size{320, 192};
+// Black around the pictures, 5 widths and more: what a method takes to lie beyond the edges, some clamp and
+// some mirror, is none of its filter's doing.
+constexpr int scene_margin_px = 96;
+constexpr glm::ivec2 framed_size = scene_size + 2 * scene_margin_px;
 constexpr double emitter = 1000;
 // What a picture gets of its bloom: enough to see, as in the rungs' defaults.
 constexpr double bloom_strength = 0.25;
@@ -36,8 +40,10 @@ constexpr double bloom_strength = 0.25;
 // of three, four and five levels. Five are the rungs' default, so at their width methods compete.
 constexpr double widths_px[] = {5.87, 10.0, 17.6};
 constexpr double compared_width_px = widths_px[2];
-// How far the width of a method that only has levels for a dial may be from it.
-constexpr double widest_mismatch = 0.15;
+// How far the width of a method that only has levels for a dial may be from it. Wider is in its favor: the
+// wider of two such pyramids is the steadier, and costs hardly more.
+constexpr double most_narrower = 0.15;
+constexpr double most_wider = 0.3;
 
 constexpr const char* recommended = "recommended";
 
@@ -45,112 +51,83 @@ constexpr const char* recommended = "recommended";
 // before, with as much light.
 const truth::GaussianMixture wanted_glow{{{0.25, 1}, {0.25, 2}, {0.25, 4}, {0.25, 8}}};
 
-struct Method {
-    std::string name;
-    std::string dial;
-    std::string mark;
-    Set set;
+struct Method : BloomMethod {
+    std::string dial = {};
+    std::string mark = {};
     double width_px = 0; // one of widths_px, or a seed's own
-    std::string rung = "04_pyramid_bloom";
-    int period_px = 32; // the response repeats when the light moves by so much
-    int levels = 0;     // of a pyramid
-    int adding = 1;     // how many of them add their light
+    int period_px = 32;  // the response repeats when the light moves by so much
+    int levels = 0;      // of a pyramid
 
     bool competes() const { return width_px == compared_width_px; }
+    bool finestAdds() const { return has("finest", "on"); }
+    // What of a light of 1 is in its bloom. Pyramids only add, so that each level has all of it.
+    double gain() const { return addingLevels(levels); }
 };
 
-bool isPyramid(const Method& method) { return method.rung == "04_pyramid_bloom"; }
-
+// All on equal terms: everything blooms, no weight against fireflies, half floats; and the pyramids both
+// ways, with and without the light of their largest level.
 std::vector<Method> methods() {
     std::vector<Method> list;
-    const auto pyramid = [&](const std::string& name, const std::string& down, const std::string& up,
-                             int levels, double width_px, const std::string& mark = "",
-                             const std::string& radius = "") {
-        const bool spline = down == "spline";
-        list.push_back(
-            {.name = name,
-             .dial = "levels " + std::to_string(levels) + (radius.empty() ? "" : ", radius " + radius),
-             .mark = mark,
-             .set = {{"down_filter", down},
-                     {"up_filter", up},
-                     {"blur", radius.empty() ? "none" : "gaussian"},
-                     {"radius", radius.empty() ? "0" : radius},
-                     {"levels", std::to_string(levels)},
-                     {"threshold", "0"},
-                     {"karis", "none"},
-                     {"finest", spline ? "off" : "on"},
-                     {"normalise", "on"}},
-             .width_px = width_px,
-             .period_px = 1 << levels,
-             .levels = levels,
-             .adding = spline ? levels - 1 : levels});
+    const auto pyramid = [&](const PyramidPair& pair, bool finest, int levels, double width_px,
+                             const std::string& radius, const std::string& mark) {
+        Method method{pyramidMethod(pair, finest)};
+        method.set.insert(
+            {{"levels", std::to_string(levels)}, {"threshold", "0"}, {"karis", "none"}, {"normalise", "on"}});
+        method.dial = "levels " + std::to_string(levels) + (finest ? ", finest on" : ", finest off");
+        if (pair.blurred) {
+            method.set["radius"] = radius;
+            method.dial += ", radius " + radius;
+        }
+        method.mark = mark;
+        method.width_px = width_px;
+        method.period_px = 1 << levels;
+        method.levels = levels;
+        list.push_back(method);
     };
-    for (int i = 0; i < 3; ++i)
-        pyramid("spline by area, spline", "spline", "spline", 3 + i, widths_px[i], i == 2 ? recommended : "");
-    for (int i = 0; i < 3; ++i)
-        pyramid("13 taps, tent", "13tap", "tent", 3 + i, widths_px[i]);
-    // One level less and a wider blur: the radius that makes up for it was measured.
-    for (int i = 0; i < 3; ++i)
-        pyramid("13 taps, Gaussian, tent", "13tap", "tent", 2 + i, widths_px[i], "", "0.86");
-    pyramid("13 taps, Gaussian, tent", "13tap", "tent", 5, 25, "seed 001 (25 px)", "0.5");
-    for (int i = 0; i < 3; ++i)
-        pyramid("5 taps, tent", "5tap", "tent", 3 + i, widths_px[i], i == 2 ? "seed 000" : "");
-    for (int i = 0; i < 3; ++i)
-        pyramid("[1 3 3 1], tent", "4tap", "tent", 3 + i, widths_px[i]);
-    for (int i = 0; i < 3; ++i)
-        pyramid("5 taps, dual filter", "5tap", "dual", 3 + i, widths_px[i]);
-    for (int i = 0; i < 3; ++i)
-        pyramid("box, bilinear", "box", "bilinear", 4 + i, widths_px[i]); // narrow for its levels
-
-    const auto gaussian = [&](const std::string& name, const std::string& blur, int period_px,
-                              const std::string& setting, const std::string& value, double width_px,
-                              const std::string& mark = "") {
-        list.push_back({.name = name,
-                        .dial = setting + " " + value,
-                        .mark = mark,
-                        .set = {{"blur", blur}, {setting, value}, {"threshold", "1000"}},
-                        .width_px = width_px,
-                        .rung = "03_gaussian_bloom",
-                        .period_px = period_px});
-    };
-    const auto ofWidth = [&](const std::string& name, const std::string& blur, int period_px,
-                             double width_px) {
-        gaussian(name, blur, period_px, "sigma", shortNumber(width_px), width_px);
-    };
-    gaussian("ping-pong, 9 taps", "ping_pong_9tap", 1, "iterations", "5", 3.8, "seed 003 (3.8 px)");
-    for (const double width_px : widths_px)
-        ofWidth("ping-pong, 9 taps", "ping_pong_9tap", 1, width_px);
-    for (const double width_px : widths_px)
-        ofWidth("ping-pong, 5 fetches", "ping_pong_5fetch", 1, width_px);
-    for (const double width_px : widths_px) {
-        if (width_px == compared_width_px)
-            gaussian("half resolution, 5 taps", "half_resolution_5tap", 2, "iterations", "5", 11,
-                     "seed 004 (11 px)");
-        ofWidth("half resolution, 5 taps", "half_resolution_5tap", 2, width_px);
+    for (const PyramidPair& pair : pyramid_pairs) {
+        const std::string seed = pair.seed;
+        // With a Gaussian on every level it takes a level less, and radii that make up for it were measured;
+        // a box is narrow for its levels.
+        const int levels = pair.blurred ? 4 : std::string(pair.down) == "box" ? 6 : 5;
+        const bool splines = std::string(pair.down) == "spline";
+        pyramid(pair, true, levels, compared_width_px, "0.86", pair.blurred ? "" : seed);
+        pyramid(pair, false, levels, compared_width_px, "0.64", splines ? recommended : "");
+        if (splines)
+            for (int i = 1; i >= 0; --i)
+                pyramid(pair, false, 3 + i, widths_px[i], "", "");
+        if (pair.blurred) pyramid(pair, true, 5, 25, "0.5", seed + " (25 px)");
     }
-    gaussian("one wide Gaussian", "wide_gaussian", 1, "sigma", "3.78", 3.8, "recommended in 03");
-    for (const double width_px : widths_px)
-        ofWidth("one wide Gaussian", "wide_gaussian", 1, width_px);
+
+    const auto gaussian = [&](const Blur& blur, const std::string& setting, const std::string& value,
+                              double width_px, const std::string& mark = "") {
+        Method method{{"03_gaussian_bloom",
+                       blur.name,
+                       {{"blur", blur.setting}, {setting, value}, {"threshold", "1000"}}}};
+        method.dial = setting + " " + value;
+        method.mark = mark;
+        method.width_px = width_px;
+        method.period_px = method.halves() ? 2 : 1;
+        list.push_back(method);
+    };
+    for (const Blur& blur : gaussian_blurs) {
+        const std::string setting = blur.setting;
+        if (setting == "mipmap") continue; // no blur of a width: it is what 03 shows to break
+        for (const double width_px : widths_px)
+            gaussian(blur, "sigma", shortNumber(width_px), width_px);
+        if (setting == "ping_pong_9tap") gaussian(blur, "iterations", "5", 3.8, "seed 003 (3.8 px)");
+        if (setting == "half_resolution_5tap") gaussian(blur, "iterations", "5", 11, "seed 004 (11 px)");
+        if (setting == "wide_gaussian") gaussian(blur, "sigma", "3.78", 3.8, "recommended in 03");
+    }
     return list;
 }
 
 std::string key(const Method& method) { return method.name + ", " + method.dial; }
 
-bool isSmall(glm::ivec2 size) { return std::min(size.x, size.y) < smallest_large_px; }
-
-// Where a method leaves its bloom. Splines give small frames one of the frame's own size.
-std::string bloomTarget(const Method& method, glm::ivec2 size) {
-    if (!isPyramid(method)) return "blurred";
-    return method.set.at("down_filter") == "spline" && isSmall(size) ? "bloom" : "bloom0";
-}
-
-// What of a light of `emitter` is in its bloom. Pyramids only add, so that each level has all of it.
-double gain(const Method& method) { return method.adding; }
-
-// What a method takes to lie beyond the edges.
-truth::Edge edgeOf(const Method& method) {
-    return isPyramid(method) && method.set.at("down_filter") == "spline" ? truth::Edge::mirror
-                                                                         : truth::Edge::clamp;
+// Whether a pass of 03 or 04 is part of the bloom and not of the scene or the display.
+bool drawsBloom(const std::string& pass) {
+    for (const char* beginning : {"bright", "down", "blur", "up", "horizontal", "vertical", "half"})
+        if (pass.starts_with(beginning)) return true;
+    return false;
 }
 
 struct Errors {
@@ -172,7 +149,7 @@ double sum(const ColorImage& image) {
 }
 
 double arriving(const ColorImage& bloom, const Method& method) {
-    return sum(bloom) / (emitter * gain(method));
+    return sum(bloom) / (emitter * method.gain());
 }
 
 // The distance at which a response has fallen to a tenth of its middle: along the diagonals over along the
@@ -266,8 +243,7 @@ class Bench {
     static std::size_t askEmitter(Frames& frames, const Method& method, glm::ivec2 size, glm::ivec2 place) {
         const std::string where = ":" + std::to_string(place.x) + "," + std::to_string(place.y) + ":" +
                                   std::to_string(int(emitter));
-        return frames.ask(method.set, size, bloomTarget(method, size),
-                          (isPyramid(method) ? "scene" : "bright") + where);
+        return frames.ask(method.set, size, method.target(size), method.firstPass() + where);
     }
 
     // Over one period along a row and along a column, about the middle.
@@ -366,9 +342,9 @@ class Bench {
                     arriving(resized(frames.read(asked[next++]), light.size.x, light.size.y), method);
                 addEnergy(errors_[m], arrived, light.inner);
                 if (method.mark != recommended) continue;
-                const bool small = isSmall(light.size);
-                const double exact = splineLight(splineShares(light.size.x, method.levels, small),
-                                                 splineShares(light.size.y, method.levels, small),
+                const int shorter = std::min(light.size.x, light.size.y);
+                const double exact = splineLight(splineShares(light.size.x, shorter, method.levels),
+                                                 splineShares(light.size.y, shorter, method.levels),
                                                  light.place.x, light.place.y);
                 errors_[m].rounding = std::max(errors_[m].rounding, std::abs(arrived - exact));
             }
@@ -383,7 +359,7 @@ class Bench {
             frames.run();
             return frames.read(frame);
         };
-        scenes_.push_back(render("05_hdr_bloom"));
+        scenes_.push_back(framed(render("05_hdr_bloom")));
         ColorImage lights(scene_size.x, scene_size.y, glm::dvec3(0.01));
         std::mt19937 random(2);
         for (int i = 0; i < 60; ++i) {
@@ -392,8 +368,23 @@ class Bench {
             const double light = std::pow(10, 1 + 2 * double(random() % 1000) / 1000);
             lights.at(x, y) = light * glm::dvec3(1, 0.4 + 0.2 * (i % 3), 0.2 + 0.3 * (i % 4));
         }
-        scenes_.push_back(lights);
-        scenes_.push_back(render("01_hdr"));
+        scenes_.push_back(framed(lights));
+        scenes_.push_back(framed(render("01_hdr")));
+    }
+
+    static ColorImage framed(const ColorImage& picture) {
+        ColorImage result(framed_size.x, framed_size.y);
+        for (int y = 0; y < picture.height; ++y)
+            for (int x = 0; x < picture.width; ++x)
+                result.at(x + scene_margin_px, y + scene_margin_px) = picture.at(x, y);
+        return result;
+    }
+    static ColorImage unframed(const ColorImage& picture) {
+        ColorImage result(scene_size.x, scene_size.y);
+        for (int y = 0; y < result.height; ++y)
+            for (int x = 0; x < result.width; ++x)
+                result.at(x, y) = picture.at(x + scene_margin_px, y + scene_margin_px);
+        return result;
     }
 
     void measureScene(std::size_t scene) {
@@ -407,7 +398,7 @@ class Bench {
                 if (method.rung == rung) {
                     Set set = method.set;
                     set["threshold"] = "0"; // everything blooms
-                    asked.push_back(frames.ask(set, scene_size, bloomTarget(method, scene_size)));
+                    asked.push_back(frames.ask(set, framed_size, method.target(framed_size)));
                 }
             frames.run();
             std::size_t next = 0;
@@ -415,16 +406,16 @@ class Bench {
                 const Method& method = list_[m];
                 if (method.rung != rung) continue;
                 sayProgress("scene " + std::to_string(scene + 1) + " of 3: " + key(method));
-                const ColorImage bloom = resized(frames.read(asked[next++]), scene_size.x, scene_size.y);
+                const ColorImage bloom = resized(frames.read(asked[next++]), framed_size.x, framed_size.y);
                 const auto withBloom = [&](const ColorImage& added, double strength) {
                     ColorImage picture = light;
                     for (std::size_t i = 0; i < picture.pixels.size(); ++i)
                         picture.pixels[i] += added.pixels[i] * strength;
-                    return picture;
+                    return unframed(picture);
                 };
                 const auto flipTo = [&](const ScalarImage& point_spread) {
-                    const ColorImage exact = truth::convolved(light, point_spread, edgeOf(method));
-                    return measure::summary(measure::hdrFlip(withBloom(bloom, bloom_strength / gain(method)),
+                    const ColorImage exact = truth::convolved(light, point_spread, truth::Edge::zero);
+                    return measure::summary(measure::hdrFlip(withBloom(bloom, bloom_strength / method.gain()),
                                                              withBloom(exact, bloom_strength))
                                                 .map)
                         .mean;
@@ -470,14 +461,8 @@ void measureBloomCosts(const fs::path& programs, const fs::path& csv) {
         for (const Method& method : list) {
             if (method.rung != rung) continue;
             double cu = fetch_cu;
-            for (const auto& pass : reports[next].at("passes")) {
-                const std::string name = pass.at("name");
-                for (const char* prefix : {"bright", "down", "blur", "up", "horizontal", "vertical", "half"})
-                    if (name.starts_with(prefix)) {
-                        cu += pass.at("cu").get<double>();
-                        break;
-                    }
-            }
+            for (const auto& pass : reports[next].at("passes"))
+                if (drawsBloom(pass.at("name"))) cu += pass.at("cu").get<double>();
             ++next;
             char text[32];
             std::snprintf(text, sizeof text, "%.2f", cu);
@@ -517,18 +502,23 @@ void drawBloomCharts(const fs::path& programs, const fs::path& costs_csv, const 
                               shortNumber(e.flip[2]), ifCompared(e.mixture_flip), method.mark});
         // What is drawn is what the table says, to the same digits.
         const auto point = [&](const std::string& dial, double error) {
-            return Point{method.name,      dial, cu, std::stod(shortNumber(error)), method.mark,
-                         method.competes()};
+            return Point{
+                method.name,        dial, cu, std::stod(shortNumber(error)), method.mark, method.competes(),
+                method.finestAdds()};
         };
-        const std::string width = shortNumber(e.sigma_px) + " px";
-        shift.push_back(point(width, 100 * e.shift_variance));
-        flip.push_back(point(width, (e.flip[0] + e.flip[1] + e.flip[2]) / 3));
-        if (method.competes()) {
+        if (method.competes() || !method.mark.empty()) {
+            shift.push_back(point("", 100 * e.shift_variance));
+            flip.push_back(point("", (e.flip[0] + e.flip[1] + e.flip[2]) / 3));
+        }
+        if (method.competes() && !method.finestAdds()) {
             energy.push_back(point("inside", 100 * e.inner_energy_error));
             energy.back().mark = "";
             energy.push_back(point("anywhere", 100 * e.energy_error));
-            promise("the distance of the width of " + key(method) + " from what it is compared at",
-                    std::abs(e.sigma_px / method.width_px - 1), widest_mismatch);
+        }
+        if (method.competes()) {
+            const std::string width = "the width of " + key(method) + ", px,";
+            promise(width, e.sigma_px, method.width_px * (1 + most_wider));
+            promise("less " + width, -e.sigma_px, -method.width_px * (1 - most_narrower));
         }
         if (method.mark != recommended) continue;
         const auto goal = [&](const std::string& what, double value, double bound) {
@@ -548,17 +538,20 @@ void drawBloomCharts(const fs::path& programs, const fs::path& costs_csv, const 
     writeCsv(folder / "bloom.csv", table);
     const std::string x = "cost, copies (cu)";
     const std::string others = "small: at other widths";
-    drawChart(folder / "bloom_shift.svg",
-              {.title = "Bloom filters 18 px wide: does the glow depend on where the light is?",
-               .x = x,
-               .y = "shift variance, %",
-               .log_y = true,
-               .floor = 0.1,
-               .log_x = true,
-               .others = others},
-              shift);
+    const std::string hollow = "hollow: finest level adds light";
+    drawChart(
+        folder / "bloom_shift.svg",
+        {.title = "Bloom 18 px wide, with and without its finest level: does it depend on the light's place?",
+         .x = x,
+         .y = "shift variance, %",
+         .log_y = true,
+         .floor = 0.1,
+         .log_x = true,
+         .others = others,
+         .hollow = hollow},
+        shift);
     drawChart(folder / "bloom_energy.svg",
-              {.title = "Bloom filters 18 px wide: is light lost or made?",
+              {.title = "Bloom 18 px wide, all without their finest level: is light lost or made?",
                .x = x,
                .y = "largest energy error, %",
                .log_y = true,
@@ -567,13 +560,14 @@ void drawBloomCharts(const fs::path& programs, const fs::path& costs_csv, const 
                .log_x = true},
               energy);
     drawChart(folder / "bloom_flip.svg",
-              {.title = "Bloom filters 18 px wide: what would a person see, against exact convolution?",
+              {.title = "Bloom 18 px wide, with and without its finest level, against exact convolution",
                .x = x,
                .y = "mean HDR-FLIP over three scenes",
                .log_y = true,
                .floor = 1e-3,
                .log_x = true,
-               .others = others},
+               .others = others,
+               .hollow = hollow},
               flip);
     if (!missed.empty()) throw std::runtime_error("bloom: " + missed);
 }

@@ -228,32 +228,44 @@ void drawChart(const std::filesystem::path& file, const Axes& axes, const std::v
     data << "EOD\n";
     plot << "plot $front with steps lw 2 lc rgb '#000000' title 'Pareto front (grey: not on it)'";
 
-    // Full and open by turns, so that two that coincide are both seen.
+    // Full and open by turns, so that two that coincide are both seen; where open ones say something else,
+    // full ones only, then the same in blue.
     constexpr int shapes[] = {7, 4, 9, 10, 13, 6, 5, 8, 11, 12, 1, 2, 3};
+    constexpr int full_shapes[] = {7, 5, 9, 11, 13, 15}; // each one's open shape is the one before
+    const bool pairs = !axes.hollow.empty();
     for (std::size_t m = 0; m < methods.size(); ++m) {
-        std::ostringstream black_points;
-        std::ostringstream grey_points;
-        std::ostringstream other_points;
+        const bool blue = pairs && m >= std::size(full_shapes);
+        const int shape = pairs ? full_shapes[m % std::size(full_shapes)] : shapes[m % std::size(shapes)];
+        struct Group {
+            const char* name;
+            const char* color;
+            const char* size;
+            std::string points = {};
+        };
+        Group groups[] = {{"$black", blue ? "#0072b2" : "#000000", "0.9"},
+                          {"$grey", blue ? "#7db8da" : "#8a8a8a", "0.9"},
+                          {"$other", blue ? "#7db8da" : "#8a8a8a", "0.5"},
+                          {"$open_black", blue ? "#0072b2" : "#000000", "0.9"},
+                          {"$open_grey", blue ? "#7db8da" : "#8a8a8a", "0.9"},
+                          {"$open_other", blue ? "#7db8da" : "#8a8a8a", "0.5"}};
         std::ostringstream curve;
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (points[i].method != methods[m]) continue;
             const std::string place = exact(points[i].cost) + " " + exact(y(points[i].error)) + "\n";
             curve << place;
-            (!points[i].competes ? other_points : black[i] ? black_points : grey_points) << place;
+            const std::size_t group = !points[i].competes ? 2 : black[i] ? 0 : 1;
+            groups[group + (points[i].hollow ? 3 : 0)].points += place;
         }
         const std::string number = std::to_string(m);
-        const std::string shape = std::to_string(shapes[m % std::size(shapes)]);
         data << "$curve" << number << " << EOD\n" << curve.str() << "EOD\n";
         plot << ", \\\n $curve" << number << " with lines lw 1 dt 3 lc rgb '#999999' notitle";
         bool titled = false;
-        for (const auto& [points_text, color, name, size] :
-             {std::tuple(black_points.str(), "#000000", "$black", "0.9"),
-              std::tuple(grey_points.str(), "#8a8a8a", "$grey", "0.9"),
-              std::tuple(other_points.str(), "#8a8a8a", "$other", "0.5")}) {
-            if (points_text.empty()) continue;
-            data << name << number << " << EOD\n" << points_text << "EOD\n";
-            plot << ", \\\n " << name << number << " with points pt " << shape << " ps " << size
-                 << " lw 1.5 lc rgb '" << color << "' "
+        for (const Group& group : groups) {
+            if (group.points.empty()) continue;
+            const bool open = std::string(group.name).starts_with("$open");
+            data << group.name << number << " << EOD\n" << group.points << "EOD\n";
+            plot << ", \\\n " << group.name << number << " with points pt " << (open ? shape - 1 : shape)
+                 << " ps " << group.size << " lw 1.5 lc rgb '" << group.color << "' "
                  << (titled ? std::string("notitle") : "title " + inQuotes(methods[m]));
             titled = true;
         }
@@ -296,6 +308,8 @@ void drawChart(const std::filesystem::path& file, const Axes& axes, const std::v
             script << "set ytics add ('≤ " << exact(axes.floor) << "' " << exact(axes.floor) << ")\n";
     }
     if (axes.log_x) script << "set logscale x\nset format x '%g'\n";
+    if (pairs)
+        plot << ", \\\n NaN with points pt 6 ps 0.9 lw 1.5 lc rgb '#8a8a8a' title " << inQuotes(axes.hollow);
     if (!axes.others.empty())
         plot << ", \\\n NaN with points pt 7 ps 0.5 lc rgb '#8a8a8a' title " << inQuotes(axes.others);
     script << plot.str() << "\n";

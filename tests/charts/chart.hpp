@@ -16,6 +16,7 @@ struct Point {
     double error = 0;      // y
     std::string mark = {}; // "seed 001", "recommended": named in the chart; else empty
     bool competes = true;  // false: of the method's curve, but the answer to another question than the others
+    bool hollow = false;   // drawn as a hollow shape, which Axes::hollow explains
 };
 
 struct Axes {
@@ -28,6 +29,8 @@ struct Axes {
     bool dial_is_given = false;
     bool log_x = false;      // from the power of ten below the cheapest
     std::string others = {}; // what points are that do not compete, for the key
+    std::string hollow =
+        {}; // what hollow shapes are, for the key; each method then has its full and its hollow one
 };
 
 // Whether a point competes and no other such is at once as cheap and as accurate, and better in one of the

@@ -128,6 +128,21 @@ TEST(Drawing, showsWhatDoesNotCompeteSmallAndSaysWhatItIs) {
     EXPECT_NE(svg, all);
 }
 
+TEST(Drawing, showsWhatIsHollowAsSuchInItsMethodsShapeAndSaysWhatItIs) {
+    const test::TemporaryFolder folder;
+    const Axes axes{.title = "a title", .x = "x", .y = "y", .hollow = "hollow: with sugar"};
+    std::vector<Point> list;
+    for (int i = 0; i < 8; ++i) // more methods than shapes
+        list.push_back({"method " + std::to_string(i), "", 1.0 + i, 1.0 + i});
+    const std::string full = drawn(folder, axes, list);
+    EXPECT_EQ(count(full, ">hollow: with sugar<"), 1);
+    EXPECT_EQ(count(full, "xlink:href='#gpPt5'"), 1) << "the key's";
+    list[0].hollow = true;
+    const std::string svg = drawn(folder, axes, list);
+    EXPECT_GE(count(svg, "xlink:href='#gpPt5'"), 2);
+    EXPECT_NE(svg.find("rgb(  0, 114, 178)"), std::string::npos) << "the seventh method's color";
+}
+
 TEST(Drawing, hasTheSameStepsBetweenPowersOfTenOfALogarithmicCost) {
     const test::TemporaryFolder folder;
     const std::string svg = drawn(folder, {.title = "a title", .x = "x", .y = "y", .log_x = true},

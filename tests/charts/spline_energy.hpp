@@ -11,11 +11,8 @@ namespace gll::charts {
 // dimensions arrives the product of both sides' shares.
 using SplineShares = std::vector<std::vector<double>>; // [level][place]
 
-// Frames whose shorter side is below this are small: 04_pyramid_bloom enlarges their bloom by a spline
-// instead of bilinear fetches.
-inline constexpr int smallest_large_px = 64;
-
-SplineShares splineShares(int side_px, int levels, bool small);
+// shorter_side_px: the frame's, which decides how its levels are weighed.
+SplineShares splineShares(int side_px, int shorter_side_px, int levels);
 
 // The light that arrives of a light of 1, divided by the number of levels.
 double splineLight(const SplineShares& across, const SplineShares& down, int x, int y);

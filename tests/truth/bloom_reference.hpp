@@ -233,11 +233,14 @@ Plane weighed(const Plane& source, int width, int height, const Weights& weights
     return result;
 }
 
-// Each source texel counts by the part of the target texel's spline that lies over it.
+// Each source texel counts by the part of the target texel's spline that lies over it; or, in large sources,
+// by the height of a linear spline of two texels a step.
 inline Plane splineDown(const Plane& source, int width, int height, int degree) {
-    return weighed(source, width, height, [degree](int from, int to) {
+    const bool by_height = degree == 1 && std::min(source.width, source.height) >= 128;
+    return weighed(source, width, height, [&](int from, int to) {
         const double ratio = double(from) / to;
         return axisWeights(from, to, (degree + 1) / 2.0 * ratio, [&](int texel, double centre) {
+            if (by_height) return truncatedPowers(degree + 1, degree, (texel + 0.5 - centre) / ratio) / ratio;
             const auto area = [&](double edge) {
                 return truncatedPowers(degree + 1, degree + 1, (edge - centre) / ratio);
             };

@@ -15,6 +15,10 @@ constexpr std::array gaussian = {0.2270270270F, 0.1945945946F, 0.1216216216F, 0.
 // Below this, a bilinear fetch of level 0 at an odd size gives one texel up to 1 % more light than the next.
 constexpr int small_extent_px = 64;
 
+// From here on, the linear spline's heights do for its areas where a side is odd: the weights of the pixels
+// in the middle add up to 1 + 1 / side at most.
+constexpr int large_extent_px = 128;
+
 // Level i is the source halved i + 1 times, at least one pixel a side: rounded down, or up where the edges
 // are mirrored, so that no texel of the larger is left over.
 void resizeChain(std::vector<Framebuffer>& chain, const std::string& name, int count, Format format,
@@ -131,11 +135,15 @@ void PyramidBloom::drawDownBySplines(Frame& frame, const Texture& source,
     const auto draw = [&](const std::string& name, const Framebuffer& target, const Texture& from,
                           bool bright) {
         const glm::ivec2 size = from.size();
-        const bool exact = size.x % 2 == 0 && size.y % 2 == 0;
-        const Defines defines = parameters.filters.karis.defines() + parameters.filters.guard.defines() +
-                                Defines{{"BRIGHT", bright ? "1" : "0"},
-                                        {"DEGREE", bright ? "1" : "3"},
-                                        {"EXACT", exact ? "1" : "0"}};
+        const bool even = size.x % 2 == 0 && size.y % 2 == 0;
+        const bool large = std::min(size.x, size.y) >= large_extent_px;
+        const char* weights = !bright && even             ? "WEIGHTS_EVEN"
+                              : bright && (even || large) ? "WEIGHTS_HEIGHT"
+                                                          : "WEIGHTS_AREA";
+        const Defines defines =
+            parameters.filters.karis.defines() + parameters.filters.guard.defines() +
+            Defines{{"BRIGHT", bright ? "1" : "0"}, {"DEGREE", bright ? "1" : "3"}, {"WEIGHTS_EVEN", "0"},
+                    {"WEIGHTS_HEIGHT", "1"},        {"WEIGHTS_AREA", "2"},          {"WEIGHTS", weights}};
         const Program& program = shaders_.fullScreen("04_pyramid_bloom/spline.frag", defines);
         frame.pass(
             name, target,
