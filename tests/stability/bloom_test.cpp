@@ -278,8 +278,9 @@ TEST_F(BloomStability, aSplinesGlowDoesNotDependOnTheGridAndTheOthersDo) {
         const bool steady = method.hasSplines() && !method.hasWeight();
         if (one.finest) {
             // Of boxes all levels are as bad as the first.
-            if (!method.has("down_filter", "box"))
+            if (!method.has("down_filter", "box")) {
                 EXPECT_GT(variance, 1.3 * without) << method.name << ": its finest level does no harm";
+            }
         } else if (!method.isPyramid() && !method.halves()) {
             EXPECT_LE(variance, 1e-6) << method.name; // the same taps at every pixel
         } else if (steady) {
