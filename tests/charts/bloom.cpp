@@ -538,7 +538,7 @@ void drawBloomCharts(const fs::path& programs, const fs::path& costs_csv, const 
     writeCsv(folder / "bloom.csv", table);
     const std::string x = "cost, copies (cu)";
     const std::string others = "small: at other widths";
-    const std::string hollow = "hollow: finest level adds light";
+    const std::string hollow = "hollow: with finest level";
     drawChart(
         folder / "bloom_shift.svg",
         {.title = "Bloom 18 px wide, with and without its finest level: does it depend on the light's place?",
