@@ -140,7 +140,7 @@ TEST(Drawing, showsWhatIsHollowAsSuchInItsMethodsShapeAndSaysWhatItIs) {
     EXPECT_EQ(count(full, circle), 1);
     EXPECT_GE(count(full, "rgb(125, 184, 218)"), 1) << "what comes after the shapes' end is blue";
     list[0].hollow = true;
-    EXPECT_EQ(count(drawn(folder, axes, list), circle), 2);
+    EXPECT_EQ(count(drawn(folder, axes, list), circle), 3); // and where it is, and beside its name
 }
 
 TEST(Drawing, hasTheSameStepsBetweenPowersOfTenOfALogarithmicCost) {
