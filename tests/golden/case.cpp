@@ -12,6 +12,11 @@ bool GoldenCase::isBlessed(const std::string& hash) const {
     return std::any_of(blessed.begin(), blessed.end(), [&](const Blessing& one) { return one.hash == hash; });
 }
 
+bool GoldenCase::isBlessedFor(const std::string& renderer) const {
+    return std::any_of(blessed.begin(), blessed.end(),
+                       [&](const Blessing& one) { return one.renderer == renderer; });
+}
+
 std::vector<GoldenCase> readCases(const fs::path& folder) {
     std::vector<fs::path> files;
     if (fs::is_directory(folder))

@@ -18,9 +18,10 @@ struct Blessing {
 struct GoldenCase {
     std::string name;
     nlohmann::ordered_json request; // a line of --batch: size, frame, preset, set, target
-    std::vector<Blessing> blessed;
+    std::vector<Blessing> blessed;  // one a renderer; the picture is the first one's
 
     bool isBlessed(const std::string& hash) const;
+    bool isBlessedFor(const std::string& renderer) const;
 };
 
 // The cases of a folder, by name. Throws std::runtime_error naming the file that is wrong.

@@ -202,6 +202,26 @@ std::string today() {
     return text;
 }
 
+// Adds the hash of this renderer's frame and keeps the picture, which is another renderer's, however far the
+// two differ: both were looked at. A renderer that has its hash already is drawing something else now.
+void blessAlso(const Task& task, GoldenCase golden, const Image& frame, const std::string& renderer) {
+    const std::string hash = pixelHash(frame);
+    const fs::path picture = task.goldens / (golden.name + ".png");
+    if (!fs::exists(picture) || golden.blessed.empty())
+        throw std::runtime_error(golden.name + ": --also adds to a blessed picture, and there is none");
+    if (golden.isBlessed(hash)) {
+        std::printf("%s: blessed already\n", golden.name.c_str());
+        return;
+    }
+    if (golden.isBlessedFor(renderer))
+        throw std::runtime_error(golden.name + ": has a hash of " + renderer +
+                                 " already, and draws another frame now; without --also, it is replaced");
+    std::printf("%s: %s; its hash on %s added\n", golden.name.c_str(),
+                compare(loadImage(picture), frame).summary().c_str(), renderer.c_str());
+    golden.blessed.push_back({hash, renderer, today()});
+    writeCase(task.goldens / (golden.name + ".json"), golden);
+}
+
 void blessOne(const Task& task, GoldenCase golden, const Image& frame, const std::string& renderer) {
     const fs::path picture = task.goldens / (golden.name + ".png");
     const std::string hash = pixelHash(frame);
@@ -214,16 +234,9 @@ void blessOne(const Task& task, GoldenCase golden, const Image& frame, const std
         const Comparison comparison = compare(loadImage(picture), frame);
         std::printf("%s: %s\n%s", golden.name.c_str(), comparison.summary().c_str(),
                     comparison.map().c_str());
-        const bool other_renderer =
-            std::none_of(golden.blessed.begin(), golden.blessed.end(),
-                         [&](const Blessing& one) { return one.renderer == renderer; });
-        if (comparison.tolerable() && other_renderer) {
-            // The same picture as another renderer draws it: both are right, and the picture stays.
-            golden.blessed.push_back({hash, renderer, today()});
-            writeCase(task.goldens / (golden.name + ".json"), golden);
-            std::printf("%s: its hash on %s added\n", golden.name.c_str(), renderer.c_str());
-            return;
-        }
+        // The same picture as another renderer draws it: both are right, and the picture stays.
+        if (comparison.tolerable() && !golden.isBlessedFor(renderer))
+            return blessAlso(task, std::move(golden), frame, renderer);
     }
     golden.blessed = {{hash, renderer, today()}};
     fs::create_directories(task.goldens);
@@ -232,12 +245,15 @@ void blessOne(const Task& task, GoldenCase golden, const Image& frame, const std
     std::printf("%s: %s\n", golden.name.c_str(), is_new ? "new picture" : "picture replaced");
 }
 
-int bless(const Task& task, const std::vector<std::string>& names, const nlohmann::ordered_json& settings) {
+int bless(const Task& task, const std::vector<std::string>& names, const nlohmann::ordered_json& settings,
+          bool also) {
     const char* ci = std::getenv("CI");
     if (ci != nullptr && *ci != '\0' && std::string(ci) != "false")
         throw std::runtime_error("blessing is for people who have looked at the pictures; CI is set here");
     std::vector<GoldenCase> cases;
     if (!settings.empty()) {
+        if (also)
+            throw std::runtime_error("--also adds to cases that are there, and settings describe a new one");
         if (names.size() != 1) throw std::runtime_error("settings describe one new case; name it");
         if (fs::exists(task.goldens / (names[0] + ".json")))
             throw std::runtime_error(names[0] + " is there already; change its .json instead");
@@ -254,7 +270,7 @@ int bless(const Task& task, const std::vector<std::string>& names, const nlohman
     const std::vector<Image> frames = renderAll(task, requestsOf(cases));
     const std::string renderer = rendererOf(task);
     for (std::size_t i = 0; i < cases.size(); ++i)
-        blessOne(task, cases[i], frames[i], renderer);
+        (also ? blessAlso : blessOne)(task, cases[i], frames[i], renderer);
     return 0;
 }
 
@@ -266,6 +282,7 @@ int main(int argc, char** argv) {
     std::vector<std::string> names;
     bool mutations = false;
     bool blesses = false;
+    bool also = false;
     int frame = 0;
     std::string size;
     std::string preset;
@@ -277,6 +294,8 @@ int main(int argc, char** argv) {
     app.add_flag("--complete", task.complete, "check too that every choice of a setting has a case");
     app.add_flag("--mutations", mutations, "check that small changes are noticed");
     app.add_flag("--bless", blesses, "accept the frames as they are now");
+    app.add_flag("--also", also, "with --bless: add this renderer's hashes, keep the pictures")
+        ->needs("--bless");
     app.add_option("--frame", frame, "of a new case: the frame");
     app.add_option("--size", size, "of a new case: WxH");
     app.add_option("--preset", preset, "of a new case: the preset");
@@ -295,7 +314,7 @@ int main(int argc, char** argv) {
             if (equals == std::string::npos) throw std::runtime_error("--set " + set + ": write KEY=VALUE");
             settings["set"][set.substr(0, equals)] = set.substr(equals + 1);
         }
-        if (blesses) return bless(task, names, settings);
+        if (blesses) return bless(task, names, settings, also);
         return mutations ? checkMutations(task) : check(task);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "golden: error: %s\n", error.what());
