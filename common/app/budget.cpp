@@ -299,7 +299,7 @@ class Search {
 
         FrameRequest request = options_.request;
         request.out.clear(); // nothing is written twice
-        Command command = headlessCommand(request, options_.files, renderer_.context().kind());
+        Command command = headlessCommand(request, options_.request.files, renderer_.context().kind());
         for (const char* word :
              {"--batch", file.c_str(), "--json", "--counter", counterName(options_.counter)})
             command.arguments.emplace_back(word);

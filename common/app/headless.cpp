@@ -7,6 +7,7 @@
 #include "app/nearest.hpp"
 #include "app/usage_error.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -223,6 +224,7 @@ nlohmann::ordered_json settingJson(const Setting& setting) {
     nlohmann::ordered_json json{{"name", setting.name},
                                 {"kind", kinds[static_cast<std::size_t>(setting.kind)]},
                                 {"help", setting.help}};
+    if (!setting.owner.empty()) json["owner"] = setting.owner;
     Setting at_default = setting;
     at_default.value = setting.default_value;
     switch (setting.kind) {
@@ -259,14 +261,31 @@ std::unique_ptr<Context> makeHeadlessContext(ContextKind kind) {
     }
 }
 
+int reportError(const RungInfo& info, std::string message, int exit_code) {
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    std::fprintf(stderr, "%s: error: %s\n", info.name.c_str(), message.c_str());
+    return exit_code;
+}
+
 int runHeadless(const Options& options, const RungInfo& info, Settings& settings) {
     std::signal(SIGINT, onInterrupt);
     const std::unique_ptr<Context> context = makeHeadlessContext(options.context);
-    Renderer renderer(*context, info, options.files);
+    std::optional<Renderer> renderer; // made anew where a line of a batch names other files
+    RungFiles given;
+    const auto rendererFor = [&](const RungFiles& files) -> Renderer& {
+        if (!renderer || files != given) {
+            renderer.reset();
+            renderer.emplace(*context, info, files);
+            given = files;
+        }
+        return *renderer;
+    };
     Progress progress;
     std::vector<FrameRequest> requests =
         options.is_batch ? options.batch : std::vector<FrameRequest>{options.request};
-    if (options.budget && !applyBudget(renderer, requests[0], options, info, settings, progress)) return 130;
+    if (options.budget &&
+        !applyBudget(rendererFor(requests[0].files), requests[0], options, info, settings, progress))
+        return 130;
     std::size_t total = 0;
     for (const FrameRequest& request : requests)
         total += frameCount(request);
@@ -274,11 +293,33 @@ int runHeadless(const Options& options, const RungInfo& info, Settings& settings
     const auto rendered = [&] {
         progress.say("frame " + std::to_string(++done) + " of " + std::to_string(total));
     };
+    int exit_code = 0;
+    const auto failed = [&](const FrameRequest& request, const std::exception& error, int code) {
+        progress.clear();
+        reportError(info, request.batch_line + ": " + error.what(), code);
+        if (exit_code == 0) exit_code = code;
+    };
     for (const FrameRequest& request : requests) {
         if (interrupted != 0) break;
-        renderRequest(renderer, request, options, info, settings, rendered);
+        const auto render = [&] {
+            renderRequest(rendererFor(request.files), request, options, info, settings, rendered);
+        };
+        if (!options.is_batch) {
+            render();
+            continue;
+        }
+        // The other frames of a batch are worth having without this one.
+        try {
+            render();
+        } catch (const std::bad_alloc&) {
+            throw;
+        } catch (const UsageError& error) {
+            failed(request, error, 2);
+        } catch (const std::exception& error) {
+            failed(request, error, 1);
+        }
     }
-    return interrupted != 0 ? 130 : 0;
+    return interrupted != 0 ? 130 : exit_code;
 }
 
 int listSettings(const Options& options, const RungInfo& info, Settings& settings) {
@@ -292,7 +333,7 @@ int listSettings(const Options& options, const RungInfo& info, Settings& setting
     try {
         const auto context = makeHeadlessContext(ContextKind::headless);
         drawn_by = context->info().renderer + ", " + context->info().version;
-        Renderer small(*context, info, options.files);
+        Renderer small(*context, info, options.request.files);
         const auto& drawn = small.render(1, {64, 64});
         targets = targetNames(drawn);
         for (const DrawnPass& pass : drawn)

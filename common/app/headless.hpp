@@ -10,8 +10,12 @@ namespace gll {
 // The context that --context or --headless asks for. Throws std::runtime_error saying what is missing.
 std::unique_ptr<Context> makeHeadlessContext(ContextKind kind);
 
+// An error as every rung says it: one line on stderr. Returns the exit code.
+int reportError(const RungInfo& info, std::string message, int exit_code);
+
 // Does what the options ask for and prints what was written. Throws std::runtime_error or UsageError on
-// failure. Returns the exit code: 0, or 130 where Ctrl-C ended it between two frames.
+// failure; a batch says so, with the line, and goes on with the next one. Returns the exit code: 0, 130 where
+// Ctrl-C ended it between two frames, or that of the first line of a batch that failed.
 int runHeadless(const Options& options, const RungInfo& info, Settings& settings);
 
 // --settings: settings, presets, and, from a small frame rendered for the purpose, targets and passes. Where

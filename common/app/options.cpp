@@ -133,7 +133,16 @@ std::string scalarText(const std::string& key, const nlohmann::json& value) {
 const std::vector<std::string> batch_keys = {"size", "frame",  "frames", "preset",   "set",
                                              "out",  "target", "inject", "readings", "cost"};
 
-FrameRequest parseBatchLine(const std::string& line, FrameRequest request) {
+// The file that a key of a batch line names, where the rung takes one.
+std::filesystem::path* fileOf(const std::string& key, const RungInfo& info, RungFiles& files) {
+    if (info.takes_image && key == "image") return &files.image;
+    if (!info.takes_files) return nullptr;
+    if (key == "mesh") return &files.mesh;
+    if (key == "floor") return &files.floor;
+    return key == "environment" ? &files.environment : nullptr;
+}
+
+FrameRequest parseBatchLine(const std::string& line, FrameRequest request, const RungInfo& info) {
     const auto json = nlohmann::json::parse(line, nullptr, false);
     if (!json.is_object()) throw UsageError("not a JSON object on one line");
     for (const auto& [key, value] : json.items()) {
@@ -165,11 +174,16 @@ FrameRequest parseBatchLine(const std::string& line, FrameRequest request) {
         } else if (key == "set" && value.is_array()) {
             for (const auto& setting : value)
                 request.sets.push_back(scalarText(key, setting));
+        } else if (std::filesystem::path* file = fileOf(key, info, request.files);
+                   file != nullptr && value.is_string()) {
+            *file = value.get<std::string>();
         } else {
             throw UsageError(
                 "\"" + key +
                 "\" with this value is no key of a batch line; there is size, frame, "
                 "frames, preset, set (an object or a list), out, target, inject, readings, cost" +
+                (info.takes_image ? ", image" : "") + (info.takes_files ? ", mesh, floor, environment" : "") +
+
                 (isOneOf(key, batch_keys) ? "" : didYouMean(key, batch_keys)));
         }
     }
@@ -194,7 +208,8 @@ std::string readBounded(const std::string& file) {
     return text;
 }
 
-std::vector<FrameRequest> readBatch(const std::string& file, const FrameRequest& base, Settings& settings) {
+std::vector<FrameRequest> readBatch(const std::string& file, const FrameRequest& base, const RungInfo& info,
+                                    Settings& settings) {
     std::error_code error;
     if (std::filesystem::is_directory(file, error)) throw std::runtime_error(file + ": is a folder");
     std::istringstream stream(readBounded(file));
@@ -203,7 +218,8 @@ std::vector<FrameRequest> readBatch(const std::string& file, const FrameRequest&
     for (int number = 1; std::getline(stream, line); ++number) {
         if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
         try {
-            requests.push_back(parseBatchLine(line, base));
+            requests.push_back(parseBatchLine(line, base, info));
+            requests.back().batch_line = file + ":" + std::to_string(number);
             checkSettings(requests.back(), settings);
             if (requests.back().out.empty() && !requests.back().readings && !requests.back().cost)
                 throw UsageError(
@@ -392,15 +408,16 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
         ->type_name("KIND");
     app.add_flag("--json", options.json, "with --settings, --readings, --cost or --budget: print JSON");
     if (info.takes_files) {
-        app.add_option("--mesh", options.files.mesh, "your own model: .obj, .gltf or .glb")
+        app.add_option("--mesh", options.request.files.mesh, "your own model: .obj, .gltf or .glb")
             ->type_name("FILE");
-        app.add_option("--floor", options.files.floor, "your own floor material: .mtl")->type_name("FILE");
-        app.add_option("--environment", options.files.environment, "your own sky: .hdr or .exr")
+        app.add_option("--floor", options.request.files.floor, "your own floor material: .mtl")
+            ->type_name("FILE");
+        app.add_option("--environment", options.request.files.environment, "your own sky: .hdr or .exr")
             ->type_name("FILE");
     }
 
     if (info.takes_image)
-        app.add_option("--image", options.files.image,
+        app.add_option("--image", options.request.files.image,
                        "your own picture instead of the scene: .exr, .hdr, .png, .jpg")
             ->type_name("FILE");
 
@@ -458,7 +475,7 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
     checkRequest(options.request);
     checkSettings(options.request, settings);
     options.is_batch = !batch.empty();
-    if (options.is_batch) options.batch = readBatch(batch, options.request, settings);
+    if (options.is_batch) options.batch = readBatch(batch, options.request, info, settings);
     return options;
 }
 

@@ -52,6 +52,8 @@ struct FrameRequest {
     std::vector<Injection> injections;
     bool readings = false;
     bool cost = false;
+    RungFiles files;
+    std::string batch_line; // "FILE:line" of it
 
     bool isSequence() const { return first_frame != last_frame; }
     std::filesystem::path outFor(int frame) const; // out with its %d filled in
@@ -67,7 +69,6 @@ struct Options {
     std::optional<FrameRequest> or_picture; // in place of the window, where none can be opened
     bool list_settings = false;
     bool json = false;
-    RungFiles files;
 };
 
 // Parses a command line. Returns nothing where --help or --version was asked for and printed. Throws

@@ -19,6 +19,8 @@ struct RungFiles {
     std::filesystem::path floor;       // --floor
     std::filesystem::path environment; // --environment
     std::filesystem::path image;       // --image
+
+    bool operator==(const RungFiles&) const = default;
 };
 
 // What a rung is made from, once there is an OpenGL context.

@@ -124,6 +124,11 @@ Choice Settings::choice(std::string name, std::string_view default_value, std::v
     return Choice(add(std::move(setting)));
 }
 
+void Settings::shared(std::string_view owner, std::initializer_list<std::string_view> names) {
+    for (const std::string_view name : names)
+        at(name).owner = owner;
+}
+
 void Settings::preset(Preset preset) {
     const Preset& added = presets_.emplace_back(std::move(preset));
     applyPreset(

@@ -5,6 +5,7 @@
 #include "gl/program.hpp" // Defines
 
 #include <deque>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,6 +24,7 @@ struct Setting {
     double max = 0;
     std::vector<std::string> choices = {};
     double value = 0;
+    std::string owner = {}; // the rung that teaches it, where rungs share it; empty: this one
 
     // As the command line spells it: "0.6", "5", "on", "aces_narkowicz".
     std::string text() const;
@@ -84,6 +86,10 @@ class Settings {
     Toggle toggle(std::string name, bool default_value, std::string help);
     Choice choice(std::string name, std::string_view default_value, std::vector<std::string> choices,
                   std::string help);
+
+    // Settings that rungs share, and the rung that teaches them: its goldens show all their choices, those of
+    // the other rungs one each. Throws UsageError where one is not declared.
+    void shared(std::string_view owner, std::initializer_list<std::string_view> names);
 
     // A named set of values over the defaults. "seed", the defaults themselves, always exists.
     struct Preset {

@@ -15,12 +15,6 @@
 namespace gll {
 namespace {
 
-int report(const RungInfo& info, std::string message, int exit_code) {
-    std::replace(message.begin(), message.end(), '\n', ' ');
-    std::fprintf(stderr, "%s: error: %s\n", info.name.c_str(), message.c_str());
-    return exit_code;
-}
-
 bool measures(const Options& options) {
     if (!options.is_batch) return options.request.cost;
     return std::any_of(options.batch.begin(), options.batch.end(),
@@ -58,11 +52,11 @@ int runRung(int argc, char** argv, const RungInfo& info, Settings& settings) {
         if (measures(*options)) prepareCost(options->counter, argv);
         return runHeadless(*options, info, settings);
     } catch (const UsageError& error) {
-        return report(info, error.what(), 2);
+        return reportError(info, error.what(), 2);
     } catch (const std::bad_alloc&) {
-        return report(info, "out of memory; ask for a smaller --size or fewer instances", 1);
+        return reportError(info, "out of memory; ask for a smaller --size or fewer instances", 1);
     } catch (const std::exception& error) {
-        return report(info, error.what(), 1);
+        return reportError(info, error.what(), 1);
     }
 }
 

@@ -152,9 +152,9 @@ class PassTimer final : public PassObserver {
 class RungWindow {
   public:
     RungWindow(const Options& options, const RungInfo& info, Settings& settings)
-        : info_(info), settings_(settings), given_(options.files),
+        : info_(info), settings_(settings), given_(options.request.files),
           context_(info.name + " - GL Ladder", options.request.size),
-          renderer_(context_, info, options.files), clock_(options.request.first_frame),
+          renderer_(context_, info, options.request.files), clock_(options.request.first_frame),
           timer_(context_.info().is_software) {
         glfwSetWindowUserPointer(context_.window(), this);
         glfwSetKeyCallback(context_.window(), onKey);

@@ -21,8 +21,7 @@ std::vector<GoldenCase> readCases(const fs::path& folder) {
     std::vector<fs::path> files;
     if (fs::is_directory(folder))
         for (const auto& entry : fs::directory_iterator(folder))
-            if (entry.path().extension() == ".json" && entry.path().stem() != "mutations")
-                files.push_back(entry.path());
+            if (entry.path().extension() == ".json") files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     std::vector<GoldenCase> cases;
     for (const fs::path& file : files)
@@ -52,6 +51,12 @@ GoldenCase readCase(const fs::path& json_file) {
         throw std::runtime_error(json_file.string() + ": " + error.what());
     }
     return golden;
+}
+
+nlohmann::ordered_json batchLine(const GoldenCase& golden, const fs::path& folder) {
+    nlohmann::ordered_json line = golden.request;
+    if (line.contains("image")) line["image"] = (folder / line.at("image").get<std::string>()).string();
+    return line;
 }
 
 void writeCase(const fs::path& json_file, const GoldenCase& golden) {

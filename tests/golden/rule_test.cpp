@@ -12,12 +12,12 @@ constexpr int width = 320;
 constexpr int height = 240;
 constexpr int tolerated = width * height / 200; // 0.5 % of the pixels
 
-Image grey() {
-    return {.width = width,
-            .height = height,
+Image grey(int w = width, int h = height) {
+    return {.width = w,
+            .height = h,
             .channels = 3,
             .color_space = ColorSpace::srgb,
-            .pixels = std::vector<std::uint8_t>(std::size_t(width) * height * 3, 100)};
+            .pixels = std::vector<std::uint8_t>(std::size_t(w) * std::size_t(h) * 3, 100)};
 }
 
 // The first `count` pixels changed by `codes`, in their last channel.
@@ -42,9 +42,23 @@ TEST(GoldenRule, toleratesHalfAPercentOfThePixelsByUpToTwoCodesAndNotOneMore) {
 
 TEST(GoldenRule, toleratesEightPixelsByMoreThanTwoCodesAndNotNine) {
     EXPECT_TRUE(compare(grey(), changed(8, 3)).tolerable());
-    EXPECT_TRUE(compare(grey(), changed(8, 100)).tolerable());
+    EXPECT_TRUE(compare(grey(), changed(8, -16)).tolerable());
     EXPECT_FALSE(compare(grey(), changed(9, 3)).tolerable());
     EXPECT_FALSE(compare(grey(), changed(9, -3)).tolerable());
+}
+
+TEST(GoldenRule, toleratesNoPixelByMoreThanSixteenCodes) {
+    EXPECT_FALSE(compare(grey(), changed(1, 17)).tolerable());
+    EXPECT_FALSE(compare(grey(), changed(1, -17)).tolerable());
+}
+
+TEST(GoldenRule, toleratesFewerPixelsByMoreThanTwoCodesInASmallerPicture) {
+    const Image small = grey(160, 120);
+    EXPECT_TRUE(compare(small, changed(2, 3, small)).tolerable());
+    EXPECT_FALSE(compare(small, changed(3, 3, small)).tolerable());
+    const Image large = grey(640, 480);
+    EXPECT_TRUE(compare(large, changed(32, 3, large)).tolerable());
+    EXPECT_FALSE(compare(large, changed(33, 3, large)).tolerable());
 }
 
 TEST(GoldenRule, toleratesNothingInATinyPicture) {

@@ -81,13 +81,23 @@ TEST(BatchFile, thatIsEmptyIsRefused) {
     expectRefusal(run(rungCommand(folder, {"--batch", file.string()})), 2, {"batch.jsonl"});
 }
 
-TEST(BatchFile, withATargetThatIsNotThereStopsAtThatFrame) {
+TEST(BatchFile, withATargetThatIsNotThereGoesOnWithTheNextFrame) {
     const TemporaryFolder folder;
-    const auto file = folder.write("batch.jsonl", R"({"size": "8x8", "out": "first.png"})"
+    const auto file = folder.write("batch.jsonl", R"({"size": "8x8", "target": "hdd", "out": "first.png"})"
                                                   "\n"
-                                                  R"({"size": "8x8", "target": "hdd", "out": "second.png"})");
-    expectRefusal(run(rungCommand(folder, {"--batch", file.string()})), 2, {"hdd"});
-    EXPECT_EQ(folder.listing(), (std::vector<std::string>{"batch.jsonl", "first.png"}));
+                                                  R"({"size": "8x8", "out": "second.png"})");
+    expectRefusal(run(rungCommand(folder, {"--batch", file.string()})), 2, {"batch.jsonl:1", "hdd"});
+    EXPECT_EQ(folder.listing(), (std::vector<std::string>{"batch.jsonl", "second.png"}));
+}
+
+TEST(BatchFile, withAPictureThatIsNotThereGoesOnWithTheNextFrame) {
+    const TemporaryFolder folder;
+    const auto file =
+        folder.write("batch.jsonl", R"({"size": "8x8", "image": "missing.png", "out": "first.png"})"
+                                    "\n"
+                                    R"({"size": "8x8", "out": "second.png"})");
+    expectRefusal(run(rungCommand(folder, {"--batch", file.string()})), 1, {"batch.jsonl:1", "missing.png"});
+    EXPECT_EQ(folder.listing(), (std::vector<std::string>{"batch.jsonl", "second.png"}));
 }
 
 } // namespace

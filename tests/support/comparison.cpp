@@ -31,7 +31,8 @@ char letter(int codes) {
 bool Comparison::tolerable() const {
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     return comparable && differing.size() * tolerated_differing_in <= pixels &&
-           exceeding <= tolerated_exceeding;
+           exceeding * tolerated_exceeding_in <= pixels &&
+           (differing.empty() || differing.front().codes <= largest_tolerated);
 }
 
 std::string Comparison::summary() const {

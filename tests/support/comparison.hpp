@@ -12,11 +12,13 @@
 namespace gll::test {
 
 // Measured on this ladder's kind of frames (58 shader mutants, three Mesa versions): a real bug moves many
-// pixels by few codes, another Mesa moves few pixels by one code. So differing pixels are counted, whatever
-// they differ by.
-constexpr std::size_t tolerated_differing_in = 200; // one pixel in so many: 0.5 %
-constexpr std::size_t tolerated_exceeding = 8;      // pixels
-constexpr int small_difference = 2;                 // codes of 255, the largest of a pixel's channels
+// pixels by few codes, another Mesa moves few pixels by one code. So differing pixels are counted, and a few
+// along edges may differ by more; but not by much, for then a pixel shows something else. A processor without
+// AVX moves the worst of them by 8 codes.
+constexpr std::size_t tolerated_differing_in = 200;  // one pixel in so many: 0.5 %
+constexpr std::size_t tolerated_exceeding_in = 9600; // one pixel in so many: 8 of 320x240
+constexpr int small_difference = 2;                  // codes of 255, the largest of a pixel's channels
+constexpr int largest_tolerated = 16;                // codes: twice what was measured
 
 struct PixelDifference {
     int x = 0;
@@ -32,7 +34,7 @@ struct Comparison {
     std::size_t exceeding = 0;              // of them, those by more than small_difference
 
     bool identical() const { return comparable && differing.empty(); }
-    // At most 0.5 % of the pixels differ, and at most 8 by more than 2 codes.
+    // At most 0.5 % of the pixels differ, at most one in 9600 by more than 2 codes, and none by more than 16.
     bool tolerable() const;
     // "12 of 76800 pixels differ (0.016 %), 3 by more than 2 codes, the worst by 9"
     std::string summary() const;

@@ -25,7 +25,9 @@ struct ToneMapOptions {
           white_point(settings.number("white_point", default_white_point, 0.01, 65504,
                                       "luminance that becomes white; for reinhard_extended")),
           encode(settings.choice("encode", default_encode, {"gamma22", "srgb"},
-                                 "transfer function for the display")) {}
+                                 "transfer function for the display")) {
+        settings.shared("01_hdr", {"exposure_ev", "tone_map", "white_point", "encode"});
+    }
 
     // Of the shader variant.
     Defines defines() const { return tone_map.defines() + encode.defines(); }

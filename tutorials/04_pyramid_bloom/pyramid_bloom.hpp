@@ -27,7 +27,9 @@ struct PyramidFilters {
           normalise(
               settings.toggle("normalise", false,
                               "divide by the number of levels: the bloom has the light of what is bright")),
-          guard(settings) {}
+          guard(settings) {
+        settings.shared("04_pyramid_bloom", {"karis", "down_filter", "up_filter", "finest", "normalise"});
+    }
 
     // For --budget: the filters from the most accurate on.
     static void dials(Settings& settings) {

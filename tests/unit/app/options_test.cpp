@@ -278,6 +278,17 @@ TEST_F(OptionsTest, aBatchLineHasTheKeysOfTheOptions) {
     EXPECT_TRUE(second.target.empty()) << "lines do not inherit from each other";
 }
 
+TEST_F(OptionsTest, aBatchLineNamesAPictureWhereTheRungTakesOne) {
+    const std::string line = R"({"out": "a.png", "image": "own.exr"})";
+    EXPECT_THROW(parse({"--batch", batch(line)}), UsageError);
+    info.takes_image = true;
+    const Options options =
+        parse({"--image", "all.exr", "--batch", batch(line + "\n{\"out\": \"b.png\"}")}).value();
+    EXPECT_EQ(options.batch.at(0).files.image, "own.exr");
+    EXPECT_EQ(options.batch.at(1).files.image, "all.exr");
+    EXPECT_TRUE(options.batch.at(1).batch_line.ends_with(":2"));
+}
+
 TEST_F(OptionsTest, anErrorInABatchNamesTheFileAndTheLine) {
     const std::string good = R"({"out": "a.png"})";
     for (const char* bad :

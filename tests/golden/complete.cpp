@@ -1,0 +1,122 @@
+// Which cases are missing: by the rung's settings, and by the list of those that were there.
+#include "golden/complete.hpp"
+
+#include <fstream>
+#include <set>
+#include <stdexcept>
+
+namespace gll::test {
+namespace {
+namespace fs = std::filesystem;
+
+std::string text(const nlohmann::json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_boolean()) return value.get<bool>() ? "on" : "off";
+    return value.dump();
+}
+
+// What the cases set each setting to, those that leave it alone not counted.
+std::map<std::string, std::set<std::string>> shownValues(const nlohmann::json& listed,
+                                                         const std::vector<GoldenCase>& cases) {
+    std::map<std::string, std::set<std::string>> shown;
+    for (const GoldenCase& golden : cases) {
+        std::map<std::string, std::string> values;
+        for (const auto& preset : listed.at("presets"))
+            if (preset.at("name") == golden.request.value("preset", "seed"))
+                for (const auto& value : preset.at("values"))
+                    values[value.at(0)] = value.at(1);
+        if (golden.request.contains("set"))
+            for (const auto& [name, value] : golden.request.at("set").items())
+                values[name] = text(value);
+        for (const auto& [name, value] : values)
+            shown[name].insert(value);
+    }
+    return shown;
+}
+
+bool isDefault(const nlohmann::json& setting, const std::string& value) {
+    const auto& usual = setting.at("default");
+    return usual.is_number() ? std::stod(value) == usual.get<double>() : text(usual) == value;
+}
+
+std::set<std::string> readList(const fs::path& folder) {
+    std::set<std::string> names;
+    std::ifstream stream(folder / "cases.txt");
+    for (std::string name; std::getline(stream, name);)
+        if (!name.empty()) names.insert(name);
+    return names;
+}
+
+} // namespace
+
+Excuses readExcuses(const fs::path& json_file, const std::string& rung) {
+    try {
+        std::ifstream stream(json_file);
+        const auto json = nlohmann::json::parse(stream);
+        return json.contains(rung) ? json.at(rung).get<Excuses>() : Excuses{};
+    } catch (const std::exception& error) {
+        throw std::runtime_error(json_file.string() + ": " + error.what());
+    }
+}
+
+std::vector<std::string> missingCases(const nlohmann::json& listed, const std::vector<GoldenCase>& cases,
+                                      const Excuses& excuses) {
+    const std::string rung = listed.at("rung");
+    const auto shown = shownValues(listed, cases);
+    std::map<std::string, std::string> missing; // by what an excuse would call it, a setting to bless it with
+    for (const auto& setting : listed.at("settings")) {
+        const std::string name = setting.at("name");
+        const auto found = shown.find(name);
+        const std::set<std::string> values = found == shown.end() ? std::set<std::string>{} : found->second;
+        if (setting.contains("choices") && setting.value("owner", rung) == rung &&
+            !name.starts_with("right_")) {
+            for (const std::string choice : setting.at("choices"))
+                if (!isDefault(setting, choice) && !values.contains(choice))
+                    missing[name + "=" + choice] = name + "=" + choice;
+            continue;
+        }
+        bool is_shown = false;
+        for (const std::string& value : values)
+            is_shown = is_shown || !isDefault(setting, value);
+        if (!is_shown) missing[name] = name + "=(not " + text(setting.at("default")) + ")";
+    }
+    std::vector<std::string> sentences;
+    for (const auto& [name, set] : missing)
+        if (!excuses.contains(name))
+            sentences.push_back(name +
+                                " failed: there is no case with it; look at the frame, then tests/bless " +
+                                rung + " CASE --set '" + set + "'");
+    for (const auto& [name, reason] : excuses)
+        if (!missing.contains(name))
+            sentences.push_back(name + " failed: excused, but a case shows it, or there is no such setting");
+    return sentences;
+}
+
+std::vector<std::string> differencesToList(const fs::path& folder, const std::vector<GoldenCase>& cases) {
+    const std::set<std::string> listed = readList(folder);
+    std::set<std::string> there;
+    for (const GoldenCase& golden : cases)
+        there.insert(golden.name);
+    std::vector<std::string> sentences;
+    for (const std::string& name : listed)
+        if (!there.contains(name))
+            sentences.push_back(name + " failed: the case is gone; if that is meant, take it out of " +
+                                (folder / "cases.txt").string());
+    for (const std::string& name : there)
+        if (!listed.contains(name))
+            sentences.push_back(name + " failed: not in " + (folder / "cases.txt").string() +
+                                "; tests/bless adds what it accepts");
+    return sentences;
+}
+
+void addToList(const fs::path& folder, const std::string& name) {
+    std::set<std::string> names = readList(folder);
+    names.insert(name);
+    std::ofstream stream(folder / "cases.txt");
+    for (const std::string& one : names)
+        stream << one << "\n";
+    stream.close();
+    if (!stream) throw std::runtime_error((folder / "cases.txt").string() + ": cannot be written");
+}
+
+} // namespace gll::test

@@ -1,0 +1,34 @@
+// Whether a rung's golden cases are all there and show all its settings: what no frame shows can change
+// unnoticed.
+#pragma once
+
+#include "golden/case.hpp"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace gll::test {
+
+// By setting, or by "setting=choice", the reason why no case shows it.
+using Excuses = std::map<std::string, std::string>;
+
+// Of that rung, from a file {"NN_name": {"setting": "reason"}}. Throws std::runtime_error where it is wrong.
+Excuses readExcuses(const std::filesystem::path& json_file, const std::string& rung);
+
+// A sentence for each case that is missing. listed: what the rung prints for --settings --json. Asked for is
+// a case for every choice of a setting but its default, and one off its default for every toggle and number.
+// Of settings that another rung owns one choice will do, since that rung's goldens show the others, and so of
+// the other side of a comparison ("right_..."), which is drawn by the same code as the first. An excuse that
+// is not needed is said too.
+std::vector<std::string> missingCases(const nlohmann::json& listed, const std::vector<GoldenCase>& cases,
+                                      const Excuses& excuses);
+
+// The names in the folder's cases.txt, one a line, are those of the cases that must be there. A sentence for
+// each that is not there, and for each that is and is not listed.
+std::vector<std::string> differencesToList(const std::filesystem::path& folder,
+                                           const std::vector<GoldenCase>& cases);
+void addToList(const std::filesystem::path& folder, const std::string& name);
+
+} // namespace gll::test
