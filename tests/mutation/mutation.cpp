@@ -278,7 +278,7 @@ class Runner {
             for (const Excuse& excuse : excuses_)
                 if (excuse.file == file &&
                     std::none_of(here.begin(), here.end(), [&](const Mutant& m) { return excuse.covers(m); }))
-                    stale_.push_back(file + ": " + excuse.line + " -> " + excuse.becomes);
+                    stale_.push_back(file + ": no such fault: " + excuse.line + " -> " + excuse.becomes);
             possible_ += here.size();
             if (file.find(task_.only) == std::string::npos) continue;
             if (task_.sample == 0) {
@@ -345,14 +345,22 @@ class Runner {
             copy.write(mutant.file, mutant.text);
             judge(copy, outcome);
             copy.write(mutant.file, readText(task_.root / "shaders" / mutant.file));
+            if (outcome.verdict == Verdict::survived && isExcused(mutant)) outcome.verdict = Verdict::excused;
             outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
             const std::lock_guard lock(mutex_);
+            if (outcome.verdict == Verdict::killed && isExcused(mutant))
+                stale_.push_back(mutant.file + ": " + outcome.by + " shows it: " + mutant.after);
             say(outcome);
             outcomes_.push_back(std::move(outcome));
         }
     }
 
     void judge(const Copy& copy, Outcome& outcome) {
+        // Of a shader that no frame is drawn with, there is nothing to see.
+        if (std::any_of(excuses_.begin(), excuses_.end(), [&](const Excuse& excuse) {
+                return excuse.line.empty() && excuse.covers(outcome.mutant);
+            }))
+            return;
         std::size_t most_differing = 0;
         bool is_drawn = false; // with the fault in it
         bool fails = false;
@@ -387,11 +395,9 @@ class Runner {
             outcome.verdict = is_seen ? Verdict::killed : Verdict::invalid;
             return;
         }
-        outcome.by = !is_drawn ? "no rung draws with it"
-                     : most_differing == 0
-                         ? "no pixel differs"
-                         : std::to_string(most_differing) + " pixels differ, which is tolerated";
-        outcome.verdict = isExcused(outcome.mutant) ? Verdict::excused : Verdict::survived;
+        outcome.by = !is_drawn             ? "no rung draws with it"
+                     : most_differing == 0 ? "no pixel differs"
+                                           : "tolerated, pixels differing: " + std::to_string(most_differing);
     }
 
     // The rungs that use the shader and their cases, those first that showed a fault nearby, then the small
@@ -495,7 +501,7 @@ int main(int argc, char** argv) {
         const std::vector<Outcome> outcomes = runner.run();
         const bool is_good = report(outcomes);
         for (const std::string& excuse : runner.staleExcuses())
-            std::printf("excused.json: there is no such fault any more: %s\n", excuse.c_str());
+            std::printf("excused.json: stale: %s\n", excuse.c_str());
         std::printf("%zu of %zu faults tried\n", outcomes.size(), runner.possible());
         return is_good && runner.staleExcuses().empty() ? 0 : 1;
     } catch (const std::exception& error) {

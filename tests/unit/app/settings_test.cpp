@@ -177,5 +177,15 @@ TEST(Settings, aDialWithAValueThatDoesNotFitIsRefusedAtOnce) {
     EXPECT_THROW(settings.dial({"colour"}), UsageError);
 }
 
+TEST(Settings, ofSeveralRungsNameTheOneThatOwnsThem) {
+    Settings settings;
+    settings.number("mine", 0, 0, 1, "help");
+    settings.number("shared", 0, 0, 1, "help");
+    settings.shared("01_test", {"shared"});
+    EXPECT_EQ(settings.at("mine").owner, "");
+    EXPECT_EQ(settings.at("shared").owner, "01_test");
+    EXPECT_THROW(settings.shared("01_test", {"misspelt"}), UsageError);
+}
+
 } // namespace
 } // namespace gll::test
