@@ -1,7 +1,7 @@
 // Puts one small fault after the other into a copy of the shaders and sees whether a golden frame shows it:
 // frames that let faults through check nothing. A fault that can change no frame is excused by name in
 // excused.json.
-//     tests/run -L mutation                              a tenth of all faults: minutes
+//     tests/run -L mutation                              one fault in twenty: minutes
 //     build/release/bin/mutation --sample 12 ...         a quick look, in every run
 //     build/release/bin/mutation --only lib/ --share 1   every fault of some files
 #include "golden/case.hpp"
@@ -188,7 +188,7 @@ struct Task {
     fs::path programs;
     std::string only;
     std::size_t sample = 0; // so many in all; 0: by share
-    double share = 0.1;     // of a file's faults
+    double share = 0.05;    // of a file's faults
     std::uint64_t seed = 1;
     unsigned jobs = 1;
 };
