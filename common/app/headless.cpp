@@ -299,6 +299,10 @@ int runHeadless(const Options& options, const RungInfo& info, Settings& settings
         progress.clear();
         reportError(info, request.batch_line + ": " + error.what(), code);
         if (exit_code == 0) exit_code = code;
+        try {
+            context->debugLog().check(""); // what OpenGL said of it is no error of the next frame
+        } catch (const std::runtime_error&) {
+        }
     };
     for (const FrameRequest& request : requests) {
         if (interrupted != 0) break;
