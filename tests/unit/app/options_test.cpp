@@ -181,7 +181,7 @@ TEST_F(OptionsTest, whatIsUnknownIsRefused) {
     EXPECT_NE(errorOf({"--size"}), "");
     EXPECT_NE(errorOf({"--mesh", "a.obj"}), "") << "this rung takes no files";
     info.takes_files = true;
-    EXPECT_EQ(parse({"--mesh", "a.obj"})->files.mesh, "a.obj");
+    EXPECT_EQ(parse({"--mesh", "a.obj"})->request.files.mesh, "a.obj");
 }
 
 TEST_F(OptionsTest, whatIsMisspeltIsAnsweredWithTheNearestName) {
