@@ -531,8 +531,7 @@ Lines linesOf(const BudgetResult& result) {
                    (result.present_error > result.budget.limit ? "over" : "within") + " the budget";
     for (const std::string& name : result.not_needed)
         lines.not_needed += (lines.not_needed.empty() ? "" : ", ") + name;
-    lines.not_needed =
-        "not needed: " + (lines.not_needed.empty() ? "nothing" : lines.not_needed);
+    lines.not_needed = "not needed: " + (lines.not_needed.empty() ? "nothing" : lines.not_needed);
     return lines;
 }
 
