@@ -229,7 +229,7 @@ TEST_F(OptionsTest, aRequestAsACommandLineComesBackThroughAShell) {
     EXPECT_EQ(options.request.first_frame, 7);
     EXPECT_EQ(options.request.sets, request.sets);
     EXPECT_EQ(options.request.out, request.out);
-    EXPECT_EQ(options.files.image, files.image);
+    EXPECT_EQ(options.request.files.image, files.image);
 }
 
 TEST_F(OptionsTest, aCommandLineNamesFilesByTheirWholePaths) {
