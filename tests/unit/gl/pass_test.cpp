@@ -48,15 +48,15 @@ void main() { color = texture(source, uv); }
               "test program: uniform source was not set");
     EXPECT_CONTAINS(
         messageOf<std::invalid_argument>([&] {
-            draw(target, {.program = flat, .uniforms = {{"flat_color", red}, {"flat_color", red}}});
+            draw(target, {.program = flat, .uniforms = {{"flat_color", red}, {"no_such_color", red}}});
         }),
-        "no uniform named flat_color");
+        "no uniform named no_such_color");
 }
 
 TEST_F(PassTest, usedByLeavesOutWhatAVariantDoesNotUse) {
     const Framebuffer target({{"out"}}, {2, 2});
     EXPECT_TRUE(usedBy(flat, std::vector<Input>{{"source", target.color()}}).empty());
-    draw(target, {.program = flat, .uniforms = usedBy(flat, {{"flat_color", red}, {"flat_color", green}})});
+    draw(target, {.program = flat, .uniforms = usedBy(flat, {{"flat_color", red}, {"no_such_color", green}})});
     EXPECT_EQ(pixelOf(target.color(), 0, 0), red);
 }
 
