@@ -16,7 +16,7 @@
 namespace bake {
 namespace {
 
-constexpr int resolution = 1024;
+constexpr int atlas_resolution = 1024;
 constexpr int gutter_texels = 8;
 
 /// Wanted edge length: finer on the head, finest at eyes, mouth and ears, and near the ground, where paws and
@@ -342,21 +342,22 @@ void bakeCat(const std::filesystem::path& folder) {
     require(report.max_surface_distance < 2e-4, "a vertex is off the surface");
     require(report.worst_normal_agreement > 0.0, "a normal points through its triangle");
 
-    const Atlas atlas = makeAtlas(mesh, resolution, gutter_texels);
+    const Atlas atlas = makeAtlas(mesh, atlas_resolution, gutter_texels);
     std::printf("cat: %d charts, %.0f %% of the texels used, %.0f texels a statue height; slant mean %.2f, "
                 "worst %.2f\n",
                 atlas.charts, 100.0 * atlas.coverage, atlas.texels_per_unit, atlas.mean_slant,
                 atlas.worst_slant);
-    const std::vector<int> owners = texelOwners(atlas, resolution);
+    const std::vector<int> owners = texelOwners(atlas, atlas_resolution);
     std::fflush(stdout);
 
     const SampledField field{0.0075};
-    Picture albedo{resolution, resolution, 3};
-    Picture normal{resolution, resolution, 3};
-    Picture arm{resolution, resolution, 3};
-    forEachRow(resolution, [&](int y) {
-        for (int x = 0; x < resolution; ++x) {
-            const int owner = owners[static_cast<std::size_t>(y) * resolution + static_cast<std::size_t>(x)];
+    Picture albedo{atlas_resolution, atlas_resolution, 3};
+    Picture normal{atlas_resolution, atlas_resolution, 3};
+    Picture arm{atlas_resolution, atlas_resolution, 3};
+    forEachRow(atlas_resolution, [&](int y) {
+        for (int x = 0; x < atlas_resolution; ++x) {
+            const int owner =
+                owners[static_cast<std::size_t>(y) * atlas_resolution + static_cast<std::size_t>(x)];
             if (owner < 0) continue;
             const auto t = static_cast<std::size_t>(owner);
             std::array<Vec3, 3> p;
@@ -367,7 +368,7 @@ void bakeCat(const std::filesystem::path& folder) {
                 n[k] = mesh.normals[static_cast<std::size_t>(mesh.triangles[t][k])];
                 uv[k] = atlas.uvs[static_cast<std::size_t>(atlas.corners[t][k])];
             }
-            const Vec2 at{(x + 0.5) / resolution, 1.0 - (y + 0.5) / resolution};
+            const Vec2 at{(x + 0.5) / atlas_resolution, 1.0 - (y + 0.5) / atlas_resolution};
             const auto cross = [](const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; };
             const double whole = cross(uv[1] - uv[0], uv[2] - uv[0]);
             const double w1 = cross(at - uv[0], uv[2] - uv[0]) / whole;

@@ -25,13 +25,6 @@ void onInterrupt(int) {
     std::signal(SIGINT, SIG_DFL); // a second Ctrl-C ends the program at once
 }
 
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words)
-        text += (text.empty() ? "" : ", ") + word;
-    return text;
-}
-
 // Right after a pass was drawn: overwrites pixels where that was asked for, and copies the target of one
 // pass.
 class PassProbe final : public PassObserver {

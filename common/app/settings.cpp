@@ -22,13 +22,6 @@ std::string shortest(double value) {
     return {buffer, result.ptr};
 }
 
-std::string joined(const std::vector<std::string>& words) {
-    std::string text;
-    for (const std::string& word : words)
-        text += (text.empty() ? "" : ", ") + word;
-    return text;
-}
-
 std::string capitals(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
         return static_cast<char>(std::isalnum(c) ? std::toupper(c) : '_');

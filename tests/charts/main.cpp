@@ -3,11 +3,11 @@
 #include "charts/exposure.hpp"
 #include "charts/formats.hpp"
 #include "charts/tone.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <set>
@@ -26,11 +26,6 @@ const std::map<std::string, Family> families = {
     {"exposure", {gll::charts::measureExposureCosts, gll::charts::drawExposureCharts}},
     {"formats", {gll::charts::measureFormatCosts, gll::charts::drawFormatCharts}},
     {"tone", {gll::charts::measureToneCosts, gll::charts::drawToneCharts}}};
-
-std::string content(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 // The family's charts and tables in a folder; costs are measured, not drawn.
 std::set<std::string> filesOf(const std::string& family, const fs::path& folder) {
@@ -54,7 +49,7 @@ void requireSame(const fs::path& fresh, const fs::path& committed, const std::st
         if (!fs::exists(committed / name))
             throw std::runtime_error((fresh / name).string() + ": has nothing to be compared with in " +
                                      committed.string() + advice);
-        if (content(fresh / name) != content(committed / name))
+        if (gll::test::contents(fresh / name) != gll::test::contents(committed / name))
             throw std::runtime_error((committed / name).string() + ": differs from " +
                                      (fresh / name).string() + ", drawn now; look at both" + advice);
     }

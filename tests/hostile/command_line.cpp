@@ -1,9 +1,8 @@
 // Wrong options, settings, sizes, frames and targets: refused with exit code 2 before anything is rendered.
 #include "hostile/hostile.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 namespace gll::test {
@@ -112,11 +111,6 @@ TEST(CommandLineWindow, withoutADisplayNamesHeadless) {
         }
         EXPECT_EQ(folder.listing(), std::vector<std::string>());
     }
-}
-
-std::string contents(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
 // tutorials/run starts every rung with --or-picture: which command lines need a window is the program's to

@@ -1,17 +1,11 @@
 // Files that cannot be written: said in one line, with nothing half-written and nothing destroyed.
 #include "hostile/hostile.hpp"
+#include "support/temporary_folder.hpp"
 
-#include <fstream>
-#include <iterator>
 #include <unistd.h>
 
 namespace gll::test {
 namespace {
-
-std::string contents(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 TEST(Output, intoAMissingFolderIsRefused) {
     checkRefusal({"", {"--size", "8x8", "--out", "{}/no/frame.png"}, 1, {"no/frame.png", "folder"}});

@@ -1,8 +1,8 @@
 // Tables of failures, held to those that are committed.
 #include "page_table.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
 
@@ -11,11 +11,6 @@ namespace {
 
 void addOnce(std::vector<std::string>& names, const std::string& name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-}
-
-std::string content(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 } // namespace
@@ -44,7 +39,7 @@ void PageTable::check() const {
     const std::filesystem::path fresh = folders.output / (rung_ + ".csv");
     const std::filesystem::path committed = folders.tutorials / rung_ / "charts" / "stability.csv";
     charts::writeCsv(fresh, table);
-    EXPECT_EQ(content(fresh), content(committed))
+    EXPECT_EQ(test::contents(fresh), test::contents(committed))
         << committed << " is not what is measured now; if that is right, copy " << fresh
         << " over it and run tutorials/pages update";
 }

@@ -3,20 +3,15 @@
 #include "charts/bloom_methods.hpp"
 #include "page_table.hpp"
 #include "support/process.hpp"
+#include "support/temporary_folder.hpp"
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
 
 namespace gll::stability {
 namespace {
-
-std::string content(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 constexpr const char* sizes[] = {"640x480", "1x1",    "7680x1",  "1x1",    "641x479", "1x7680", "320x240",
                                  "2x3",     "64x64",  "333x77",  "1280x8", "8x1280",  "500x5",  "96x96",
@@ -47,8 +42,8 @@ TEST_P(ResizeStability, twoHundredSizesLeakNothingAndLeaveTheSameFrame) {
              {"--context", "osmesa", "--batch", folder.write("batch.jsonl", lines).string()},
              // AddressSanitizer would keep what was freed.
              {{"ASAN_OPTIONS", "quarantine_size_mb=1"}}});
-        EXPECT_FALSE(content(folder / "first.png").empty());
-        EXPECT_EQ(content(folder / "first.png"), content(folder / "last.png"));
+        EXPECT_FALSE(test::contents(folder / "first.png").empty());
+        EXPECT_EQ(test::contents(folder / "first.png"), test::contents(folder / "last.png"));
         return result.peak_memory_kib;
     };
     const long once = peakKib(1);

@@ -15,7 +15,7 @@ namespace {
 using charts::decimals;
 using charts::Set;
 
-constexpr const char* rung = "01_hdr";
+constexpr const char* hdr_rung = "01_hdr";
 const std::vector<std::string> tone_maps = {
     "clamp",    "reinhard",       "reinhard_luminance", "reinhard_extended",
     "exposure", "aces_narkowicz", "aces_hill",          "pbr_neutral",
@@ -34,7 +34,7 @@ class ToneStability : public testing::Test {
                   failure, number);
     }
 
-    static inline PageTable table{rung};
+    static inline PageTable table{hdr_rung};
 };
 
 // The charts' own sweep of 40 colours over 14 stops.
@@ -72,7 +72,7 @@ TEST_F(ToneStability, withGuardsLightOfAnyStrengthIsShownAndMoreIsNeverDarker) {
     for (int x = 0; x < decades; ++x)
         ramp.at(x, 0) = glm::dvec3(std::pow(10, darkest_decade + x));
     charts::writeExr(folder / "ramp.exr", ramp);
-    charts::Frames frames(folders.programs / rung, {"--image", (folder / "ramp.exr").string()});
+    charts::Frames frames(folders.programs / hdr_rung, {"--image", (folder / "ramp.exr").string()});
     for (const std::string& tone_map : tone_maps)
         for (const char* guard : {"on", "off"})
             for (const char* value : {"", "inf", "nan"}) {

@@ -1,4 +1,4 @@
-// A folder that is there as long as its object lives.
+// A folder that is there as long as its object lives, and what lies in files.
 #pragma once
 
 #include <filesystem>
@@ -26,5 +26,8 @@ class TemporaryFolder {
   private:
     std::filesystem::path path_;
 };
+
+// All bytes of a file; nothing where it cannot be read.
+std::string contents(const std::filesystem::path& file);
 
 } // namespace gll::test

@@ -15,8 +15,8 @@ namespace {
 // Vertices, texture coordinates and normals on lines 1 to 3, three of each kind.
 const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\n"; // 7 lines
 
-void refuses(const TemporaryFolder& folder, const std::string& text,
-             std::initializer_list<std::string_view> parts) {
+void refusesObj(const TemporaryFolder& folder, const std::string& text,
+                std::initializer_list<std::string_view> parts) {
     const auto path = folder.write("bad.obj", text);
     expectError(path, parts, [&] { loadMesh(path); });
 }
@@ -46,54 +46,54 @@ TEST(HostileObj, WhatIsNoFileIsNotOpened) {
 
 TEST(HostileObj, AMeshWithoutVerticesOrFacesIsRefused) {
     const TemporaryFolder folder;
-    refuses(folder, "", {"has no vertices"});
-    refuses(folder, "# nothing\n", {"has no vertices"});
-    refuses(folder, three, {"has no faces"});
-    refuses(folder, three + "l 1 2\n", {"has no faces", "'l', which is not drawn"});
-    refuses(folder, three + "f 1 2\nf\n", {"has no faces"});
+    refusesObj(folder, "", {"has no vertices"});
+    refusesObj(folder, "# nothing\n", {"has no vertices"});
+    refusesObj(folder, three, {"has no faces"});
+    refusesObj(folder, three + "l 1 2\n", {"has no faces", "'l', which is not drawn"});
+    refusesObj(folder, three + "f 1 2\nf\n", {"has no faces"});
     std::string many = "f";
     for (int i = 0; i < 256; ++i)
         many += " 1";
-    refuses(folder, three + many, {"has no faces"});
-    refuses(folder, std::string("\x89PNG\0\0", 6), {"is binary"});
+    refusesObj(folder, three + many, {"has no faces"});
+    refusesObj(folder, std::string("\x89PNG\0\0", 6), {"is binary"});
 }
 
 TEST(HostileObj, IndicesOutOfRangeNameTheirLine) {
     const TemporaryFolder folder;
-    refuses(folder, three + "f 1 2 99\n", {":8: ", "vertex index '99'", "the 3"});
-    refuses(folder, three + "f 1 2 3\nf -4 -5 -6\n", {":9: ", "'-4'"});
-    refuses(folder, three + "f 0 1 2\n", {":8: ", "'0'"});
-    refuses(folder, three + "f 1 2 99999999999999999999\n", {":8: ", "vertex index"});
-    refuses(folder, three + "f 1 2 -9223372036854775808\n", {":8: ", "vertex index"});
-    refuses(folder, "f 1 2 4\nf 1 2 3\n" + three, {":1: ", "vertex index '4'", "the 3"});
-    refuses(folder, "f -1 -2 -3\n" + three, {":1: ", "vertex index '-1'"});
+    refusesObj(folder, three + "f 1 2 99\n", {":8: ", "vertex index '99'", "the 3"});
+    refusesObj(folder, three + "f 1 2 3\nf -4 -5 -6\n", {":9: ", "'-4'"});
+    refusesObj(folder, three + "f 0 1 2\n", {":8: ", "'0'"});
+    refusesObj(folder, three + "f 1 2 99999999999999999999\n", {":8: ", "vertex index"});
+    refusesObj(folder, three + "f 1 2 -9223372036854775808\n", {":8: ", "vertex index"});
+    refusesObj(folder, "f 1 2 4\nf 1 2 3\n" + three, {":1: ", "vertex index '4'", "the 3"});
+    refusesObj(folder, "f -1 -2 -3\n" + three, {":1: ", "vertex index '-1'"});
 }
 
 TEST(HostileObj, MalformedFacesNameTheirLine) {
     const TemporaryFolder folder;
-    refuses(folder, three + "f 1 2 x\n", {":8: ", "'x'"});
-    refuses(folder, three + "f 1 2 3.5\n", {":8: ", "'3.5'"});
-    refuses(folder, three + "f 1 2 3x\n", {":8: ", "'3x'"});
-    refuses(folder, three + "f 1/x 2/1 3/1\n", {":8: ", "'x'"});
-    refuses(folder, three + "f /1 /2 /3\n", {":8: ", "'' is no index of a vertex"});
-    refuses(folder, three + "f 1/1/1/1 2/2/1/1 3/3/1/1\n", {":8: ", "more than three indices"});
-    refuses(folder, three + "f 1//// 2 3\n", {":8: ", "more than three indices"});
+    refusesObj(folder, three + "f 1 2 x\n", {":8: ", "'x'"});
+    refusesObj(folder, three + "f 1 2 3.5\n", {":8: ", "'3.5'"});
+    refusesObj(folder, three + "f 1 2 3x\n", {":8: ", "'3x'"});
+    refusesObj(folder, three + "f 1/x 2/1 3/1\n", {":8: ", "'x'"});
+    refusesObj(folder, three + "f /1 /2 /3\n", {":8: ", "'' is no index of a vertex"});
+    refusesObj(folder, three + "f 1/1/1/1 2/2/1/1 3/3/1/1\n", {":8: ", "more than three indices"});
+    refusesObj(folder, three + "f 1//// 2 3\n", {":8: ", "more than three indices"});
 }
 
 TEST(HostileObj, NumbersThatAreNoneNameTheirLine) {
     const TemporaryFolder folder;
-    refuses(folder, "v 0 0 0\r\nv nan 0 0\r\n", {":2: ", "'nan'"});
-    refuses(folder, "v 0 0 0\rv 0 -inf 0\r", {":2: ", "'-inf'"});
-    refuses(folder, "v 1e39 0 0\n", {":1: ", "'1e39'"});
-    refuses(folder, "v 3.4028236e38 0 0\n", {":1: "});
-    refuses(folder, "v 1e999999999999 0 0\n", {":1: "});
-    refuses(folder, "v 0e" + std::string(100, '9') + " 0 0\n", {":1: "});
-    refuses(folder, "v " + std::string(100000, '1') + " 0 0\n", {":1: ", "'1111"});
-    refuses(folder, "v 0 0\n", {":1: ", "missing"});
-    refuses(folder, "v 0 0 0x10\n", {":1: ", "'0x10'"});
-    refuses(folder, "v 0 0 +-1\n", {":1: ", "'+-1'"});
-    refuses(folder, "vt\n", {":1: ", "missing"});
-    refuses(folder, "vn 0 0\n", {":1: ", "missing"});
+    refusesObj(folder, "v 0 0 0\r\nv nan 0 0\r\n", {":2: ", "'nan'"});
+    refusesObj(folder, "v 0 0 0\rv 0 -inf 0\r", {":2: ", "'-inf'"});
+    refusesObj(folder, "v 1e39 0 0\n", {":1: ", "'1e39'"});
+    refusesObj(folder, "v 3.4028236e38 0 0\n", {":1: "});
+    refusesObj(folder, "v 1e999999999999 0 0\n", {":1: "});
+    refusesObj(folder, "v 0e" + std::string(100, '9') + " 0 0\n", {":1: "});
+    refusesObj(folder, "v " + std::string(100000, '1') + " 0 0\n", {":1: ", "'1111"});
+    refusesObj(folder, "v 0 0\n", {":1: ", "missing"});
+    refusesObj(folder, "v 0 0 0x10\n", {":1: ", "'0x10'"});
+    refusesObj(folder, "v 0 0 +-1\n", {":1: ", "'+-1'"});
+    refusesObj(folder, "vt\n", {":1: ", "missing"});
+    refusesObj(folder, "vn 0 0\n", {":1: ", "missing"});
 }
 
 TEST(HostileObj, FilesOutsideTheFolderAreNotRead) {

@@ -14,7 +14,7 @@ Image load(const std::string& bytes) {
     return loadImage(folder.write("a.exr", bytes));
 }
 
-const std::vector<float>& floats(const Image& image) { return std::get<std::vector<float>>(image.pixels); }
+const std::vector<float>& floatsOf(const Image& image) { return std::get<std::vector<float>>(image.pixels); }
 
 // R, G, B, A and others tell themselves apart and the place they were written for.
 float marked(const std::string& channel, int x, int y) {
@@ -47,21 +47,21 @@ TEST(Exr, ThePictureIsTheDisplayWindowAndIsTransparentWhereTheFileHasNoPixels) {
     EXPECT_EQ(image.height, 2);
     const std::vector<float> expected = {0,   0,   0,   0,   0,   0,   0,   0,   0, 0, 0, 0, // above the data
                                          100, 101, 102, 103, 110, 111, 112, 113, 0, 0, 0, 0};
-    EXPECT_EQ(floats(image), expected);
+    EXPECT_EQ(floatsOf(image), expected);
 }
 
 TEST(Exr, APictureWhoseDataLiesElsewhereIsEmpty) {
     ExrPart part = rgb(1, 1);
     part.data = {10, 10, 11, 11};
     part.display = {0, 0, 1, 0};
-    EXPECT_EQ(floats(load(exr({part}))), std::vector<float>(6, 0.0F));
+    EXPECT_EQ(floatsOf(load(exr({part}))), std::vector<float>(6, 0.0F));
 }
 
 TEST(Exr, ColorsAreFoundByNameAmongOtherChannelsWhichAreSaid) {
     ExrPart part = rgb(2, 1);
     part.channels = {"A", "B", "G", "R", "Y", "Z", "normal.X"};
     const Image image = load(exr({part}));
-    EXPECT_EQ(floats(image), (std::vector<float>{0, 1, 2, 3, 10, 11, 12, 13}));
+    EXPECT_EQ(floatsOf(image), (std::vector<float>{0, 1, 2, 3, 10, 11, 12, 13}));
     EXPECT_TRUE(says(image, "left out: 'Y', 'Z', 'normal.X'")) << image.warnings.at(0);
 }
 
@@ -69,7 +69,7 @@ TEST(Exr, TheFirstLayerStandsInWhereThereIsNoPictureWithoutOne) {
     ExrPart part = rgb(1, 1);
     part.channels = {"diffuse.B", "diffuse.G", "diffuse.R", "mask", "specular.B", "specular.G", "specular.R"};
     const Image image = load(exr({part}));
-    EXPECT_EQ(floats(image), (std::vector<float>{0, 1, 2}));
+    EXPECT_EQ(floatsOf(image), (std::vector<float>{0, 1, 2}));
     EXPECT_TRUE(says(image, "'diffuse.R', 'diffuse.G', 'diffuse.B' are read, left out: 'mask'"));
 }
 
@@ -87,9 +87,9 @@ TEST(Exr, TilesAreReadAndOfLevelsTheFinest) {
     for (const bool levels : {false, true}) {
         ExrPart part = rgb(5, 3);
         part.tile = 2;
-        const std::vector<float> expected = floats(load(exr({rgb(5, 3)})));
+        const std::vector<float> expected = floatsOf(load(exr({rgb(5, 3)})));
         part.levels = levels;
-        EXPECT_EQ(floats(load(exr({part}))), expected);
+        EXPECT_EQ(floatsOf(load(exr({part}))), expected);
     }
 }
 
@@ -101,21 +101,21 @@ TEST(Exr, OfSeveralPartsTheFirstIsReadAndSaid) {
     second.value = [](auto&&...) { return 7.0F; };
     second.tile = 2;
     const Image image = load(exr({first, second}));
-    EXPECT_EQ(floats(image), floats(load(exr({rgb(2, 2)}))));
+    EXPECT_EQ(floatsOf(image), floatsOf(load(exr({rgb(2, 2)}))));
     EXPECT_TRUE(says(image, "has 2 parts, 'left' is read"));
 }
 
 TEST(Exr, AttributesThatOpenImageIoWouldActOnDoNothing) {
     ExrPart part = rgb(3, 2);
-    const std::vector<float> expected = floats(load(exr({part})));
+    const std::vector<float> expected = floatsOf(load(exr({part})));
     for (const int rows : {0, -1, 1, 0x7fffffff}) {
         part.more = exrAttribute("tiff:RowsPerStrip", "int", int32Bytes(rows)) +
                     exrAttribute("oiio:ColorSpace", "string", "sRGB") +
                     exrAttribute("preview", "preview", int32Bytes(-1) + int32Bytes(-1)) +
                     exrAttribute("a", "b", "");
-        EXPECT_EQ(floats(load(exr({part}))), expected) << rows;
+        EXPECT_EQ(floatsOf(load(exr({part}))), expected) << rows;
         part.tile = 2;
-        EXPECT_EQ(floats(load(exr({part}))), expected) << rows;
+        EXPECT_EQ(floatsOf(load(exr({part}))), expected) << rows;
         part.tile = 0;
     }
 }
@@ -145,7 +145,7 @@ TEST(Exr, ChromaticitiesAreCarriedOverToBt709AndXyzIsTakenAsItIs) {
         part.value = [color](const std::string& channel, int, int) {
             return color[channel == "R" ? 0 : channel == "G" ? 1 : 2];
         };
-        return floats(load(exr({part})));
+        return floatsOf(load(exr({part})));
     };
     const auto near = [](const std::vector<float>& color, const std::array<float, 3>& expected) {
         for (std::size_t c = 0; c < 3; ++c)

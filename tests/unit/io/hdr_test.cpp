@@ -11,12 +11,12 @@ using namespace std::string_literals;
 
 namespace {
 
-Image load(const std::string& bytes) {
+Image loadHdr(const std::string& bytes) {
     const TemporaryFolder folder;
     return loadImage(folder.write("a.hdr", bytes));
 }
 std::vector<float> floatsOf(const std::string& bytes) {
-    return std::get<std::vector<float>>(load(bytes).pixels);
+    return std::get<std::vector<float>>(loadHdr(bytes).pixels);
 }
 
 const std::string one = "\x80\x80\x80\x81"s; // 1, 1, 1
@@ -92,7 +92,7 @@ TEST(Hdr, PrimariesAndXyzAreCarriedOverAndWhiteStaysWhite) {
 }
 
 TEST(Hdr, PixelsThatAreNotSquareAreSaid) {
-    const Image image = load("#?RADIANCE\nPIXASPECT=2\n" + format + "\n-Y 1 +X 1\n" + one);
+    const Image image = loadHdr("#?RADIANCE\nPIXASPECT=2\n" + format + "\n-Y 1 +X 1\n" + one);
     ASSERT_EQ(image.warnings.size(), 1u);
     EXPECT_NE(image.warnings[0].find("a.hdr: PIXASPECT 2"), std::string::npos);
 }
