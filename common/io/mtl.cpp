@@ -137,7 +137,7 @@ class MtlReader {
     void readMap(const Statement& s, const std::string& keyword, MaterialData& material) {
         MapStatement map = parseMap(s);
         if (keyword == "map_ka" || keyword == "map_d") { // see finish()
-            (keyword == "map_d" ? opacity_ : ambient_) = {map.name, s.where()};
+            (keyword == "map_d" ? opacity_ : ambient_) = Named{map.name, s.where()};
             return;
         }
         const auto load = [&](TextureData& texture) {
