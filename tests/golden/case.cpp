@@ -55,7 +55,8 @@ GoldenCase readCase(const fs::path& json_file) {
 
 nlohmann::ordered_json batchLine(const GoldenCase& golden, const fs::path& folder) {
     nlohmann::ordered_json line = golden.request;
-    if (line.contains("image")) line["image"] = (folder / line.at("image").get<std::string>()).string();
+    for (const char* key : {"image", "mesh", "floor", "environment"})
+        if (line.contains(key)) line[key] = (folder / line.at(key).get<std::string>()).string();
     return line;
 }
 

@@ -17,7 +17,7 @@ struct Blessing {
 
 struct GoldenCase {
     std::string name;
-    nlohmann::ordered_json request; // as a line of --batch: size, frame, preset, set, target, inject, image
+    nlohmann::ordered_json request; // as a line of --batch: size, frame, preset, set, target, inject, files
     std::vector<Blessing> blessed;  // one a renderer; the picture is the first one's
 
     bool isBlessed(const std::string& hash) const;
@@ -29,7 +29,7 @@ std::vector<GoldenCase> readCases(const std::filesystem::path& folder);
 
 GoldenCase readCase(const std::filesystem::path& json_file);
 
-// The line of --batch, but for "out": the picture that it names is found from the case's folder.
+// The line of --batch, but for "out": the files that it names are found from the case's folder.
 nlohmann::ordered_json batchLine(const GoldenCase& golden, const std::filesystem::path& folder);
 
 void writeCase(const std::filesystem::path& json_file, const GoldenCase& golden);

@@ -57,7 +57,8 @@ struct Rung {
     std::set<std::string> shaders; // those that it may draw with
 };
 
-// The shaders that a rung's C++ names, its own and what it includes of other rungs, and what those include.
+// The shaders of a rung's folder, whatever its C++ calls them; those that its C++ names, its own and what it
+// includes of other rungs; and what all these include.
 std::set<std::string> shadersOf(const fs::path& root, const std::string& rung) {
     std::vector<fs::path> sources;
     std::set<fs::path> seen;
@@ -68,6 +69,9 @@ std::set<std::string> shadersOf(const fs::path& root, const std::string& rung) {
         for (const auto& entry : fs::recursive_directory_iterator(folder))
             if (entry.path().extension() == ".cpp" || entry.path().extension() == ".hpp") visit(entry.path());
     std::set<std::string> shaders;
+    if (const fs::path own = root / "shaders" / rung; fs::is_directory(own))
+        for (const auto& entry : fs::directory_iterator(own))
+            shaders.insert(rung + "/" + entry.path().filename().string());
     for (std::size_t i = 0; i < sources.size(); ++i) {
         const std::string text = readText(sources[i]);
         shaders.merge(shadersNamedIn(text));
