@@ -1,4 +1,4 @@
-// Which cases are asked for, and that a case which is gone is missed.
+// Which cases are asked for, where their files are, and that a case which is gone is missed.
 #include "golden/complete.hpp"
 
 #include "support/temporary_folder.hpp"
@@ -47,6 +47,17 @@ TEST(CompleteGoldens, takeAnExcuseAndRefuseOneThatIsNotNeeded) {
     EXPECT_EQ(missingCases(listed, {all[1]}, {{"blur=dual", "reason"}}), std::vector<std::string>{});
     EXPECT_EQ(missingCases(listed, all, {{"blur=dual", "reason"}}).size(), 1U);
     EXPECT_EQ(missingCases(listed, all, {{"blurred", "reason"}}).size(), 1U);
+}
+
+TEST(GoldenCases, nameTheirFilesFromTheirFolder) {
+    const GoldenCase golden = caseOf(R"({"image": "../a.exr", "mesh": "b.gltf", "floor": "c.mtl",
+                                         "environment": "d.hdr", "preset": "seed"})");
+    const auto line = batchLine(golden, "goldens");
+    EXPECT_EQ(line.at("image"), "goldens/../a.exr");
+    EXPECT_EQ(line.at("mesh"), "goldens/b.gltf");
+    EXPECT_EQ(line.at("floor"), "goldens/c.mtl");
+    EXPECT_EQ(line.at("environment"), "goldens/d.hdr");
+    EXPECT_EQ(line.at("preset"), "seed");
 }
 
 TEST(GoldenList, missesACaseThatIsGoneAndOneThatItDoesNotKnow) {
