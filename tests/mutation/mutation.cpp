@@ -3,7 +3,7 @@
 // excused.json. Ends with a table by folder of shaders, and fails where less than 97 % of the faults that can
 // be seen are killed in one of them; of fewer than 34 faults, where one survives.
 //     tests/run -L mutation                              one fault in twenty: minutes
-//     build/release/bin/mutation --sample 12 ...         a quick look, in every run
+//     build/release/bin/mutation --sample 8 ...         a quick look, in every run
 //     build/release/bin/mutation --only lib/ --share 1   every fault of some files
 #include "golden/case.hpp"
 #include "mutation/mutants.hpp"
