@@ -1,6 +1,7 @@
-// The header of an EXR, after "OpenEXR File Layout" of openexr.com. OpenEXR asks memory for what it claims
-// and OpenImageIO acts on attributes of any name, so both are given a header that holds what the pixels need
-// only.
+// The header and the chunks of an EXR, after "OpenEXR File Layout" of openexr.com. OpenEXR asks memory for
+// what the header claims and OpenImageIO acts on attributes of any name, so both are given a header that
+// holds what the pixels need only. Where a chunk holds less than its rows, OpenEXR draws what memory held
+// before.
 #include "io/image_read.hpp"
 
 #include <algorithm>
@@ -9,6 +10,8 @@
 #include <functional>
 #include <map>
 #include <utility>
+
+#include <zlib.h>
 
 namespace gll {
 namespace {
@@ -41,6 +44,10 @@ struct Channel {
 struct Part {
     std::string name;
     bool deep = false;
+    int compression = 0;
+    int tile_width = 0, tile_height = 0; // 0 for scan lines
+    std::size_t chunk_count = 0;         // as the header claims it; only files of several parts need to
+    std::size_t bytes_per_pixel = 0;
     PixelWindow data, display;
     std::vector<Channel> channels;
     std::optional<Primaries> primaries;
@@ -137,9 +144,10 @@ Part partOf(const Attributes& attributes, bool tiled, std::size_t file_bytes, co
     }
     if (const Attribute* part_name = find("name", "string")) part.name = part_name->value;
     part.channels = channelsOf(need("channels", "chlist"), name);
-    std::size_t bytes_per_pixel = 0;
+    std::size_t& bytes_per_pixel = part.bytes_per_pixel;
     for (const Channel& channel : part.channels)
         bytes_per_pixel += channel.bytes();
+    part.compression = numbersOf(need("compression", "compression")).byte();
     part.data = windowOf(need("dataWindow", "box2i"), "dataWindow", bytes_per_pixel, name);
     part.display = windowOf(need("displayWindow", "box2i"), "displayWindow", 4, name);
 
@@ -148,6 +156,8 @@ Part partOf(const Attributes& attributes, bool tiled, std::size_t file_bytes, co
         const long long width = tiles.little(4);
         const long long height = tiles.little(4);
         checkSize(width, height, bytes_per_pixel, name + ": a tile");
+        part.tile_width = static_cast<int>(width);
+        part.tile_height = static_cast<int>(height);
         const long long count =
             ((part.data.width() + width - 1) / width) * ((part.data.height() + height - 1) / height);
         if (static_cast<std::size_t>(count) > file_bytes / 8) // each has an offset
@@ -157,9 +167,11 @@ Part partOf(const Attributes& attributes, bool tiled, std::size_t file_bytes, co
             throw fileError(name, "is cut into " + std::to_string(count) + " tiles, at most " +
                                       std::to_string(most_tiles) + " are read; export it in larger ones");
     }
-    if (const Attribute* count = find("chunkCount", "int"))
-        if (numbersOf(*count).little(4) > file_bytes / 8)
+    if (const Attribute* count = find("chunkCount", "int")) {
+        part.chunk_count = numbersOf(*count).little(4);
+        if (part.chunk_count > file_bytes / 8)
             throw fileError(name, "ends before its last chunk, fetch it again");
+    }
     if (const Attribute* aspect = find("pixelAspectRatio", "float"))
         part.pixel_aspect = numbersOf(*aspect).float32();
     if (const Attribute* environment = find("envmap", "envmap"))
@@ -228,6 +240,85 @@ std::vector<std::string> pictureChannels(const Part& part, std::vector<std::stri
     return chosen;
 }
 
+// How many bytes a run-length coded chunk is unpacked to: -n and n bytes as they are, or n and a byte that
+// stands n + 1 times.
+std::size_t unpackedRunLength(std::string_view packed) {
+    std::size_t size = 0;
+    for (std::size_t at = 0; at < packed.size();) {
+        const auto count = static_cast<signed char>(packed[at++]);
+        const std::size_t length = static_cast<std::size_t>(count < 0 ? -count : count + 1);
+        const std::size_t needed = count < 0 ? length : 1;
+        if (packed.size() - at < needed) return 0;
+        at += needed;
+        size += length;
+    }
+    return size;
+}
+
+// How many bytes a deflated chunk is unpacked to, 0 where it is broken; `most` and one more at the most.
+std::size_t unpackedDeflate(std::string_view packed, std::size_t most) {
+    std::vector<unsigned char> room(most + 1);
+    uLongf size = room.size();
+    const int result = uncompress(room.data(), &size, reinterpret_cast<const Bytef*>(packed.data()), // NOLINT
+                                  packed.size());
+    return result == Z_OK ? size : 0;
+}
+
+// The chunks of the finest level are where the table says, belong to the rows or the tile that they stand for
+// and hold all of their bytes. `table` is the place of the part's first offset.
+void checkChunks(std::string_view bytes, std::size_t table, std::optional<std::size_t> part_number,
+                 const Part& part, const std::string& name) {
+    enum { none, rle, zips, zip };
+    constexpr std::array<int, 10> rows_of_compression = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+    const auto compression = static_cast<std::size_t>(part.compression);
+    if (compression >= rows_of_compression.size())
+        throw fileError(name, "is packed in a way that is not known here, export it with ZIP");
+    const bool tiled = part.tile_width > 0;
+    const int width = tiled ? part.tile_width : part.data.width();
+    const int height = tiled ? part.tile_height : rows_of_compression[compression];
+    const auto broken = [&](const std::string& which) {
+        return fileError(name, "does not decode whole, fetch or export it again (" + which + ")");
+    };
+
+    if (table > bytes.size()) throw broken("it has no table of its chunks");
+    ByteReader offsets(bytes.substr(table), "inside the table of its chunks", name);
+    for (int top = 0; top < part.data.height(); top += height) {
+        for (int left = 0; left < part.data.width(); left += width) {
+            const std::string which =
+                tiled ? "tile " + std::to_string(left / width) + "," + std::to_string(top / height)
+                      : "row " + std::to_string(part.data.top + top);
+            const std::uint64_t low = offsets.little(4);
+            const std::uint64_t offset = low | static_cast<std::uint64_t>(offsets.little(4)) << 32;
+            if (offset == 0 || offset > bytes.size()) throw broken("the place of " + which + " is not known");
+            ByteReader chunk(bytes.substr(offset), "inside " + which, name);
+            bool expected = !part_number || chunk.little(4) == *part_number;
+            if (tiled) {
+                for (const int coordinate : {left / width, top / height, 0, 0})
+                    expected = chunk.signed32() == coordinate && expected;
+            } else {
+                expected = chunk.signed32() == part.data.top + top && expected;
+            }
+            if (!expected) throw broken(which + " is not where the table says");
+            const std::string_view packed = chunk.take(chunk.little(4));
+            const std::size_t whole = static_cast<std::size_t>(std::min(width, part.data.width() - left)) *
+                                      static_cast<std::size_t>(std::min(height, part.data.height() - top)) *
+                                      part.bytes_per_pixel;
+            std::size_t unpacked = whole;                      // the other ways to pack notice by themselves
+            if (packed.size() >= whole || compression == none) // what packing makes no smaller stays unpacked
+                unpacked = packed.size();
+            else if (packed.empty())
+                unpacked = 0;
+            else if (compression == rle)
+                unpacked = unpackedRunLength(packed);
+            else if (compression == zips || compression == zip)
+                unpacked = unpackedDeflate(packed, whole);
+            if (unpacked != whole)
+                throw broken(which + " holds " + std::to_string(unpacked) + " of its " +
+                             std::to_string(whole) + " bytes");
+        }
+    }
+}
+
 } // namespace
 
 CleanExr cleanExr(std::string_view bytes, const std::string& name) {
@@ -255,7 +346,8 @@ CleanExr cleanExr(std::string_view bytes, const std::string& name) {
     if (!multi_part && (version & deep_flag) != 0) parts[0].deep = true;
     const auto flat = std::find_if(parts.begin(), parts.end(), [](const Part& part) { return !part.deep; });
     if (flat == parts.end()) throw fileError(name, "is a deep EXR, flatten it");
-    clean.bytes += bytes.substr(reader.at());
+    const std::size_t first_table = reader.at();
+    clean.bytes += bytes.substr(first_table);
 
     clean.part = static_cast<int>(flat - parts.begin());
     clean.data = flat->data;
@@ -266,6 +358,12 @@ CleanExr cleanExr(std::string_view bytes, const std::string& name) {
         clean.warnings.push_back(name + ": has " + std::to_string(parts.size()) + " parts, " +
                                  inQuotes(flat->name) + " is read");
     clean.channels = pictureChannels(*flat, clean.warnings, name);
+    std::size_t chunks_before = 0;
+    for (auto before = parts.begin(); before != flat; ++before)
+        chunks_before += before->chunk_count;
+    checkChunks(bytes, first_table + 8 * chunks_before,
+                multi_part ? std::optional(static_cast<std::size_t>(flat - parts.begin())) : std::nullopt,
+                *flat, name);
     if (std::abs(flat->pixel_aspect - 1) > 0.001F)
         clean.warnings.push_back(name + ": its pixels are " + std::to_string(flat->pixel_aspect) +
                                  " times as wide as high, they are read as square");

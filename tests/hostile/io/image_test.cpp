@@ -241,6 +241,50 @@ TEST(HostileImage, ExrHeadersThatLieAreRefusedBeforeOpenExrSeesThem) {
     refuses(folder, exr(many), {"256 parts"});
 }
 
+// What a row lacks would be drawn from memory, other at each run.
+TEST(HostileImage, AnExrWhoseRowsLackBytesOrStandElsewhereIsRefused) {
+    const TemporaryFolder folder;
+    ExrPart part;
+    part.sized(4, 3);
+    constexpr std::size_t row_bytes = 4 * 3 * 4;
+    const std::string good = exr({part});
+    EXPECT_EQ(loadImage(folder.write("good", good)).height, 3);
+    const std::size_t row = good.size() - 2 * (8 + row_bytes); // the second one: its number, size and pixels
+    const std::size_t table = good.size() - 3 * (8 + row_bytes) - 3 * 8;
+    const auto changed = [&](std::size_t at, const std::string& to) {
+        return std::string(good).replace(at, to.size(), to);
+    };
+    for (const int size : {0, 1, static_cast<int>(row_bytes) - 4})
+        refuses(folder, changed(row + 4, int32Bytes(size)), {"does not decode whole", "row 1"});
+    refuses(folder, changed(row, int32Bytes(2)), {"does not decode whole", "row 1"});
+    refuses(folder, changed(table + 8, good.substr(table, 8)), {"does not decode whole", "row 1"});
+    refuses(folder, changed(table + 8, std::string(8, '\0')), {"does not decode whole", "row 1"});
+
+    // Packed: the row's 48 bytes stored by zlib (RFC 1950, 1951) or in runs, or fewer of them.
+    const auto packed = [&](char compression, const std::string& bytes) {
+        std::string file = good.substr(0, row + 4) + littleEndian(bytes.size(), 4) + bytes;
+        const std::string third = good.substr(row + 8 + row_bytes);
+        file.replace(table + 16, 8, littleEndian(file.size(), 8));
+        file.replace(file.find("compression\0compression\0"s) + 28, 1, 1, compression);
+        return file + third;
+    };
+    const std::string zlib_zeros = "\x78\x9c\x63\x60\x20\x0d\x00\x00\x00\x30\x00\x01"s; // 48 zeros
+    const std::string zlib_ten = "\x78\x9c\x63\x60\x80\x01\x00\x00\x0a\x00\x01"s;       // 10 zeros
+    EXPECT_EQ(loadImage(folder.write("good", packed(2, zlib_zeros))).height, 3);
+    EXPECT_EQ(loadImage(folder.write("good", packed(1, "\x2f\x00"s))).height, 3);
+    refuses(folder, packed(2, zlib_ten), {"does not decode whole", "row 1 holds 10 of its 48 bytes"});
+    refuses(folder, packed(1, "\x09\x00"s), {"does not decode whole", "row 1 holds 10 of its 48 bytes"});
+    for (char compression = 1; compression < 10; ++compression)
+        refuses(folder, packed(compression, ""), {"does not decode whole"});
+
+    part.tile = 2;
+    std::string tiled = exr({part});
+    EXPECT_EQ(loadImage(folder.write("good", tiled)).width, 4);
+    const std::size_t last_tile = tiled.size() - (20 + 2 * 3 * 4); // two pixels of the last row
+    tiled.replace(last_tile + 16, 4, int32Bytes(8));
+    refuses(folder, tiled, {"does not decode whole", "tile 1,1"});
+}
+
 TEST(HostileImage, HdrHeadersThatMeanSomethingElseAreRefused) {
     const TemporaryFolder folder;
     refuses(folder, "#?RADIANCE\nFORMAT=32-bit_spectrum\n\n-Y 1 +X 1\nabcd",
