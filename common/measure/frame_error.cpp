@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <unistd.h>
@@ -156,6 +157,16 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         std::fprintf(stderr, "frame_error: error: %s, see --help\n", error.what());
         return 2;
+    }
+    for (const std::string& frame : {options.image, options.reference}) {
+        std::error_code ignored; // of a map that is not there yet
+        if (!options.map.empty() && std::filesystem::equivalent(options.map, frame, ignored)) {
+            std::fprintf(stderr,
+                         "frame_error: error: --map %s: is one of the frames and would be overwritten, "
+                         "name another file\n",
+                         options.map.c_str());
+            return 2;
+        }
     }
     try {
         const nlohmann::ordered_json result = measure(options);

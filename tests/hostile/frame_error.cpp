@@ -126,6 +126,18 @@ TEST_F(FrameError, refusesToWriteWhereItCannot) {
     EXPECT_EQ(result.out, "");
 }
 
+TEST_F(FrameError, refusesToWriteTheMapOntoAFrame) {
+    const std::string before = contents(folder / "frame.png");
+    saveImage(folder / "other.png", image(8, 6, false));
+    std::filesystem::create_symlink("frame.png", folder / "link.png");
+    for (const auto& [frame, reference, map] :
+         std::vector<std::array<std::string, 3>>{{"frame.png", "other.png", "frame.png"},
+                                                 {"other.png", "frame.png", "./frame.png"},
+                                                 {"frame.png", "other.png", "link.png"}})
+        expectRefusal(run(rungCommand(folder, {frame, reference, "--map", map})), 2, {map, "overwritten"});
+    EXPECT_EQ(contents(folder / "frame.png"), before);
+}
+
 TEST_F(FrameError, refusesWrongUsage) {
     const std::vector<std::vector<std::string>> wrong = {
         {},
