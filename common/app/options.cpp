@@ -124,7 +124,12 @@ void checkSettings(const FrameRequest& request, Settings& settings) {
 // A value as the command line would spell it. Lists and objects have no such spelling, and are not printed
 // either: nested deep enough, printing them takes all of the stack.
 std::string scalarText(const std::string& key, const nlohmann::json& value) {
-    if (value.is_string()) return value.get<std::string>();
+    if (value.is_string()) {
+        auto text = value.get<std::string>();
+        if (text.find('\0') != std::string::npos) // the system would read the text up to there
+            throw UsageError("\"" + key + "\" holds a zero byte (\\u0000), which no name or value has");
+        return text;
+    }
     if (value.is_boolean()) return value.get<bool>() ? "on" : "off";
     if (value.is_number()) return value.dump();
     throw UsageError("\"" + key + "\" wants a text, a number, true or false");
@@ -160,7 +165,7 @@ FrameRequest parseBatchLine(const std::string& line, FrameRequest request, const
         } else if (key == "target") {
             request.target = scalarText(key, value);
         } else if (key == "inject" && value.is_string()) {
-            request.injections.push_back(parseInjection(value.get<std::string>()));
+            request.injections.push_back(parseInjection(scalarText(key, value)));
         } else if (key == "inject" && value.is_array()) {
             for (const auto& one : value)
                 request.injections.push_back(parseInjection(scalarText(key, one)));
@@ -174,17 +179,20 @@ FrameRequest parseBatchLine(const std::string& line, FrameRequest request, const
         } else if (key == "set" && value.is_array()) {
             for (const auto& setting : value)
                 request.sets.push_back(scalarText(key, setting));
-        } else if (std::filesystem::path* file = fileOf(key, info, request.files);
-                   file != nullptr && value.is_string()) {
-            *file = value.get<std::string>();
+        } else if (std::filesystem::path* file = fileOf(key, info, request.files); file != nullptr) {
+            if (!value.is_string()) throw UsageError("\"" + key + "\" wants a text, the name of a file");
+            *file = scalarText(key, value);
+            if (file->empty()) throw UsageError("\"" + key + "\" is empty, name a file or leave it out");
         } else {
+            std::vector<std::string> keys = batch_keys;
+            if (info.takes_image) keys.emplace_back("image");
+            if (info.takes_files) keys.insert(keys.end(), {"mesh", "floor", "environment"});
             throw UsageError(
                 "\"" + key +
                 "\" with this value is no key of a batch line; there is size, frame, "
                 "frames, preset, set (an object or a list), out, target, inject, readings, cost" +
                 (info.takes_image ? ", image" : "") + (info.takes_files ? ", mesh, floor, environment" : "") +
-
-                (isOneOf(key, batch_keys) ? "" : didYouMean(key, batch_keys)));
+                (isOneOf(key, keys) ? "" : didYouMean(key, keys)));
         }
     }
     if (json.contains("frame") && json.contains("frames"))
