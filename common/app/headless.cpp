@@ -133,6 +133,14 @@ void checkWritable(const std::filesystem::path& out) {
     if (std::filesystem::is_directory(out, error)) throw std::runtime_error(out.string() + ": is a folder");
 }
 
+// What a rung was given is never written over, under whatever name.
+void checkNoInput(const std::filesystem::path& out, const RungFiles& files) {
+    std::error_code ignored; // of a file that is not there yet
+    for (const std::filesystem::path& file : {files.mesh, files.floor, files.environment, files.image})
+        if (!file.empty() && std::filesystem::equivalent(out, file, ignored))
+            throw UsageError("--out " + out.string() + ": is what the frame is made from, name another file");
+}
+
 // As lines of text, or as one line of JSON.
 void printReadings(const std::vector<Reading>& readings, const FrameRequest& request, int frame, bool json) {
     if (json) {
@@ -159,6 +167,7 @@ void renderRequest(Renderer& renderer, const FrameRequest& request, const Option
         if (!request.out.empty() || request.readings) image = renderImage(renderer, request, frame);
         if (!request.out.empty()) {
             const std::filesystem::path out = request.outFor(frame);
+            checkNoInput(out, request.files);
             saveImage(out, forFile(*image, out.extension().string()));
             if (!options.json)
                 std::printf("%s: frame %d, %dx%d\n", out.c_str(), frame, request.size.x, request.size.y);

@@ -54,6 +54,19 @@ TEST(Output, ontoAFullDiskKeepsTheOldFileAndLeavesNoPart) {
     }
 }
 
+TEST(Output, ontoThePictureThatIsDrawnIsRefused) {
+    const TemporaryFolder folder;
+    ASSERT_EQ(run(rungCommand(folder, {"--size", "8x8", "--out", "2.exr"})).exit_code, 0);
+    const std::string before = contents(folder / "2.exr");
+    for (const char* out : {"2.exr", "./2.exr"})
+        expectRefusal(run(rungCommand(folder, {"--size", "4x4", "--image", "2.exr", "--out", out})), 2,
+                      {out, "name another file"});
+    expectRefusal(run(rungCommand(
+                      folder, {"--size", "4x4", "--image", "2.exr", "--frames", "2..3", "--out", "%d.exr"})),
+                  2, {"2.exr", "name another file"});
+    EXPECT_EQ(contents(folder / "2.exr"), before);
+}
+
 TEST(Output, ofAnUnknownTargetKeepsTheOldFile) {
     const TemporaryFolder folder;
     folder.write("frame.png", "what was there before");
