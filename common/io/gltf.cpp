@@ -323,7 +323,12 @@ class GltfReader {
                 others += " (but " + extension + ", which is not read)";
             texture.fail("has no PNG or JPEG 'source'" + others + ", export one");
         }
-        data.image = file_.image(texture["source"].in(file_["images"]));
+        try {
+            data.image = file_.image(texture["source"].in(file_["images"]));
+        } catch (const ImageMissing& missing) {
+            mesh_.warnings.push_back(std::string(missing.what()) + "; drawn without this texture");
+        }
+        if (data.image.empty()) return {};
         if (transform) {
             const auto offset = transform["offset"].numbers<2>({0, 0});
             const auto scale = transform["scale"].numbers<2>({1, 1});

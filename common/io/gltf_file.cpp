@@ -280,10 +280,14 @@ std::string GltfFile::readUri(const GltfValue& uri, std::filesystem::path* file)
     }
     const std::optional<std::string> relative = decodePercent(text);
     if (!relative) uri.fail(inQuotes(text) + " has a '%' without two hexadecimal digits");
-    const std::filesystem::path found =
-        confinedFile(path_.parent_path(), *relative, name_ + ": " + uri.pointer());
-    if (file == nullptr) return readFile(found, max_mesh_file_bytes);
-    *file = found;
+    const std::string where = name_ + ": " + uri.pointer();
+    if (file == nullptr)
+        return readFile(confinedFile(path_.parent_path(), *relative, where), max_mesh_file_bytes);
+    try {
+        *file = confinedFile(path_.parent_path(), *relative, where);
+    } catch (const std::runtime_error& error) {
+        throw ImageMissing(error.what());
+    }
     return {};
 }
 
@@ -327,7 +331,8 @@ ImageSource GltfFile::image(const GltfValue& image) {
     if (!is_new) return known->second;
     const GltfValue uri = image["uri"];
     const GltfValue view = image["bufferView"];
-    if (bool(uri) == bool(view)) image.fail("needs either 'uri' or 'bufferView'");
+    if (!uri && !view) throw ImageMissing(name_ + ": " + image.pointer() + ": names no image");
+    if (uri && view) image.fail("needs either 'uri' or 'bufferView'");
     ImageSource source{.name = name_ + ": " + image.pointer(), .file = {}, .encoded = nullptr};
     std::string encoded =
         view ? std::string(bytes(view.in((*this)["bufferViews"]))) : readUri(uri, &source.file);

@@ -68,6 +68,11 @@ class GltfValue {
     std::string pointer_;
 };
 
+// An image that is not there, in a file that can be drawn without it.
+struct ImageMissing : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
 class GltfFile {
   public:
     // A .gltf or .glb, told by its first bytes. Throws as GltfValue does, also where the file requires an
@@ -79,6 +84,8 @@ class GltfFile {
 
     // The bytes of a buffer view, all there.
     std::string_view bytes(const GltfValue& view);
+    // Throws ImageMissing, once an image, where its file is not there or may not be read; its source is empty
+    // then and from then on.
     ImageSource image(const GltfValue& image);
 
     const std::string& name() const { return name_; }
