@@ -37,6 +37,11 @@ class ObjText {
         : text(readFile(path, max_mesh_file_bytes)), path_(path), name_(path.string()) {
         forEachStatement(text, name_, [&](const Statement& s) { check(s); });
         if (counts[0] == 0) throw fileError(name_, "has no vertices, export the mesh again");
+        if (face_materials.empty() && dropped_.count > 0)
+            throw fileError(at(dropped_.line),
+                            "a face of " + std::to_string(dropped_.corners) + " corners, 3 to " +
+                                std::to_string(max_face_corners) + " are drawn; none of the faces (" +
+                                std::to_string(dropped_.count) + ") can be, export them as triangles");
         if (face_materials.empty())
             throw fileError(name_, undrawn_.empty() ? "has no faces, export the mesh again"
                                                     : "has no faces, only " + undrawn_ +
@@ -60,6 +65,9 @@ class ObjText {
 
   private:
     static constexpr std::array kinds = {"a vertex", "a texture coordinate", "a normal"};
+    struct Dropped {
+        std::size_t count = 0, corners = 0, line = 0; // the last two of the first one
+    };
     struct Greatest {
         std::size_t index = 0, line = 0;
     };
@@ -121,6 +129,7 @@ class ObjText {
         if (corners < 3 || corners > max_face_corners) {
             notes.add(s.where(), "a face of " + std::to_string(corners) + " corners is not drawn, 3 to " +
                                      std::to_string(max_face_corners) + " are");
+            if (dropped_.count++ == 0) dropped_ = {1, corners, s.line_number};
             blank(s.keyword);
             return blank(s.rest);
         }
@@ -244,6 +253,7 @@ class ObjText {
     std::set<std::filesystem::path> libraries_;
     bool library_missing_ = false;
     std::string undrawn_;
+    Dropped dropped_;
 };
 
 // A vertex of the result is one combination of an OBJ's three index spaces and of what shades it: 0 a normal

@@ -50,11 +50,11 @@ TEST(HostileObj, AMeshWithoutVerticesOrFacesIsRefused) {
     refusesObj(folder, "# nothing\n", {"has no vertices"});
     refusesObj(folder, three, {"has no faces"});
     refusesObj(folder, three + "l 1 2\n", {"has no faces", "'l', which is not drawn"});
-    refusesObj(folder, three + "f 1 2\nf\n", {"has no faces"});
+    refusesObj(folder, three + "f 1 2\nf\n", {"bad.obj:8: a face of 2 corners", "none of the faces (2)"});
     std::string many = "f";
     for (int i = 0; i < 256; ++i)
         many += " 1";
-    refusesObj(folder, three + many, {"has no faces"});
+    refusesObj(folder, three + many, {"a face of 256 corners", "none of the faces (1)", "triangles"});
     refusesObj(folder, std::string("\x89PNG\0\0", 6), {"is binary"});
 }
 
