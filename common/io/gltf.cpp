@@ -352,6 +352,7 @@ class GltfReader {
     MaterialData material(const GltfValue& from) {
         MaterialData to;
         to.name = from["name"].text(from ? "" : "default");
+        to.implied = !from;
         const GltfValue pbr = from["pbrMetallicRoughness"];
         to.base_color = glm::make_vec4(pbr["baseColorFactor"].numbers<4>({1, 1, 1, 1}, 0.0, 1.0).data());
         to.base_color_texture = texture(pbr["baseColorTexture"]);

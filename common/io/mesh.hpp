@@ -45,6 +45,7 @@ enum class AlphaMode {
 // images are sRGB, the others data.
 struct MaterialData {
     std::string name;
+    bool implied = false;                   // the file has none such: what names no material has this one
     glm::vec4 base_color = glm::vec4(1.0F); // linear; alpha: opacity, see alpha_mode
     TextureData base_color_texture;
     AlphaMode alpha_mode = AlphaMode::opaque;

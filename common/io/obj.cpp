@@ -235,6 +235,7 @@ class ObjText {
             material = of_slot[material];
         if (std::find(face_materials.begin(), face_materials.end(), plain) == face_materials.end()) return;
         materials.emplace_back().name = "default";
+        materials.back().implied = true;
         materials.back().base_color = glm::vec4(glm::vec3(plain_grey), 1.0F);
     }
 

@@ -1,6 +1,7 @@
 // Models, materials and skies that a rung is given and cannot use: said in one line that names the file.
 #include "hostile/hostile.hpp"
 #include "unit/io/exr_maker.hpp"
+#include "unit/io/gltf_maker.hpp"
 
 #include <algorithm>
 
@@ -91,6 +92,22 @@ TEST(Files, withAnImageThatCannotBeReadAreDrawnWithoutItAndNamedOnceInABatch) {
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
     EXPECT_TRUE(result.err.starts_with("10_deferred: warning: ")) << result.err;
     EXPECT_NE(result.err.find("broken.png: "), std::string::npos) << result.err;
+}
+
+TEST(Files, withoutMaterialsAreDrawnWithoutAWordOnThem) {
+    const TemporaryFolder folder;
+    folder.write("mesh.gltf", GltfMaker().gltf());
+    const Result result =
+        run(rungCommand(folder, {"--size", "8x8", "--mesh", "mesh.gltf", "--out", "a.png"}));
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.err, "");
+    GltfMaker metallic;
+    metallic.json["materials"] = {{{"name", "default"}}};
+    metallic.primitive()["material"] = 0;
+    folder.write("mesh.gltf", metallic.gltf());
+    EXPECT_NE(run(rungCommand(folder, {"--size", "8x8", "--mesh", "mesh.gltf", "--out", "a.png"}))
+                  .err.find("material 'default' is metallic"),
+              std::string::npos);
 }
 
 TEST(Files, whoseHeadersLieAreRefused) {

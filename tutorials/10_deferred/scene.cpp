@@ -171,7 +171,7 @@ std::vector<std::string> Scene::notDrawn(const std::string& where) const {
     std::vector<std::string> lines;
     const auto say = [&](const std::string& what, const auto& has) {
         for (const Surface& surface : surfaces_)
-            if (surface.tag == 0 && has(surface.data)) {
+            if (surface.tag == 0 && !surface.data.implied && has(surface.data)) {
                 lines.push_back(where + ": material '" + surface.data.name + "' " + what);
                 return;
             }
