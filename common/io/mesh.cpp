@@ -14,13 +14,30 @@
 
 namespace gll {
 
+namespace {
+
+// A mesh of which nothing can be seen is drawn, and would leave one looking for it.
+MeshData withWordIfFlat(MeshData mesh, const std::string& name) {
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const glm::dvec3 a = mesh.positions[mesh.indices[i]];
+        const glm::dvec3 b = mesh.positions[mesh.indices[i + 1]];
+        const glm::dvec3 c = mesh.positions[mesh.indices[i + 2]];
+        if (glm::cross(b - a, c - a) != glm::dvec3(0.0)) return mesh;
+    }
+    mesh.warnings.push_back(name + ": none of its " + std::to_string(mesh.indices.size() / 3) +
+                            " triangles has an area, nothing of it is seen");
+    return mesh;
+}
+
+} // namespace
+
 MeshData loadMesh(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     try {
-        if (extension == ".obj") return loadObj(path);
-        if (extension == ".gltf" || extension == ".glb") return loadGltf(path);
+        if (extension == ".obj") return withWordIfFlat(loadObj(path), path.string());
+        if (extension == ".gltf" || extension == ".glb") return withWordIfFlat(loadGltf(path), path.string());
     } catch (const std::bad_alloc&) {
         throw fileError(path.string(), "needs more memory than there is, simplify the mesh");
     }

@@ -118,13 +118,13 @@ inline constexpr std::size_t max_node_depth = 256;
 // vertices that do not exist, no faces at all.
 //
 // glTF: the default scene (without one: the first; without scenes: all root nodes), transforms applied,
-// strips and fans as triangles. Missing normals are the faces' own, as the specification has it. Only what the
-// scene uses is looked at. Read beyond the core: KHR_texture_transform, KHR_mesh_quantization,
-// KHR_materials_emissive_strength; cameras never. Said in warnings where the scene has them: skins (the mesh is
-// in its own space), morph targets with weights, animations, points and lines, texture coordinates beyond the
-// second set, any other extension that changes the picture. Refused: what a file requires beyond these, and
-// geometry or images that only Draco, meshopt or another format than PNG and JPEG holds. Minification is the
-// renderer's choice, whatever a sampler says.
+// strips and fans as triangles. Missing normals are the faces' own, as the specification has it. Only what
+// the scene uses is looked at. Read beyond the core: KHR_texture_transform, KHR_mesh_quantization,
+// KHR_materials_emissive_strength; cameras never. Said in warnings where the scene has them: skins (the mesh
+// is in its own space), morph targets with weights, animations, points and lines, texture coordinates beyond
+// the second set, any other extension that changes the picture, images that are missing. Refused: what a file
+// requires beyond these, and geometry or images that only Draco, meshopt or another format than PNG and JPEG
+// holds. Minification is the renderer's choice, whatever a sampler says.
 //
 // Throws std::runtime_error "where: what, what to do"; where is path:line for OBJ and MTL, "path:
 // /json/pointer" for glTF, or the path where neither applies.

@@ -300,6 +300,17 @@ TEST(Obj, WhatIsNoTriangleIsNamedOnce) {
                                  path.string() + ":8: a face of 2 corners is not drawn, 3 to 255 are"}));
 }
 
+TEST(Obj, AMeshOfTrianglesWithoutAreaIsSaidToShowNothing) {
+    const TemporaryFolder folder;
+    const std::string line = "v 0 0 0\nv 1 1 1\nv 2 2 2\nv 0 1 0\n";
+    const auto path = folder.write("a.obj", line + "f 1 2 3\nf 1 1 2\n");
+    EXPECT_EQ(loadMesh(path).warnings,
+              std::vector<std::string>{path.string() +
+                                       ": none of its 2 triangles has an area, nothing of it is seen"});
+    EXPECT_EQ(loadMesh(folder.write("a.obj", line + "f 1 2 3\nf 1 2 4\n")).warnings,
+              std::vector<std::string>());
+}
+
 TEST(Obj, AMissingLibraryOrMaterialIsDrawnInPlainGrey) {
     const TemporaryFolder folder;
     const auto path = folder.write(
