@@ -83,8 +83,8 @@ struct MeshData {
     // rows in their order and a texture lookup needs no flip. Where a file has none: zero.
     std::vector<glm::vec2> uvs;
     std::vector<glm::vec2> second_uvs; // of TextureData::uv_set 1; empty if no texture of the file uses them
-    // Linear, 0 to 1, multiplied onto the base color; alpha onto its alpha. Empty if the file has none, else white
-    // where it has none.
+    // Linear, 0 to 1, multiplied onto the base color; alpha onto its alpha. Empty if the file has none, else
+    // white where it has none.
     std::vector<glm::vec4> colors;
     // Empty if no part of the file has any; else xyz of unit length and w = +-1, or all zero where it has
     // none. bitangent = cross(normal, tangent.xyz) * tangent.w points up the image. Only glTF has tangents.
@@ -131,11 +131,12 @@ inline constexpr std::size_t max_node_depth = 256;
 MeshData loadMesh(const std::filesystem::path& path);
 
 // Reads the materials of an MTL, at least one, in the file's order. Kd, map_Kd: base color (linear; without
-// both plain grey). map_ao: occlusion. Pr, map_Pr: roughness, 1 without Pr. Pm, map_Pm: metallic; without Pm 1
-// if there is a map, else 0. Ke, map_Ke: emitted color. norm, map_Kn: a normal map. bump, map_Bump: heights,
-// -bm their scale. map_d: an alpha mask, if it is map_Kd's image. "-imfchan r|g|b|m" before a file name picks
-// the channel (m: the first); -s and -o: uv * s + o; -clamp. What cannot be read or is not drawn is appended
-// to the warnings, "path:line: what". Throws as loadMesh does where there is no file or no material in it.
+// both plain grey). map_ao: occlusion. Pr, map_Pr: roughness, 1 without Pr. Pm, map_Pm: metallic; without Pm
+// 1 if there is a map, else 0. Ke, map_Ke: emitted color. norm, map_Kn: a normal map. bump, map_Bump:
+// heights, -bm their scale. map_d: an alpha mask, if it is map_Kd's image. "-imfchan r|g|b|m" before a file
+// name picks the channel (m: the first); -s and -o: uv * s + o; -clamp. What cannot be read or is not drawn
+// is appended to the warnings, "path:line: what". Throws as loadMesh does where there is no file or no
+// material in it.
 std::vector<MaterialData> loadMtl(const std::filesystem::path& path, std::vector<std::string>& warnings);
 
 } // namespace gll

@@ -62,8 +62,7 @@ class PyramidBloomRung final : public Rung {
     using Options = PyramidOptions;
 
     PyramidBloomRung(RungResources resources, const Options& options)
-        : shaders_(resources.shaders), options_(options), image_(resources),
-          bloom_(shaders_) {}
+        : shaders_(resources.shaders), options_(options), image_(resources), bloom_(shaders_) {}
 
     // excerpt: frame
     void render(Frame& frame) override {

@@ -57,8 +57,7 @@ class HdrBloom final : public Rung {
     using Options = HdrBloomOptions;
 
     HdrBloom(RungResources resources, const Options& options)
-        : shaders_(resources.shaders), options_(options), image_(resources),
-          bloom_(resources.shaders) {}
+        : shaders_(resources.shaders), options_(options), image_(resources), bloom_(resources.shaders) {}
 
     // excerpt: frame
     void render(Frame& frame) override {

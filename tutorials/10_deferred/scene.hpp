@@ -18,7 +18,8 @@ class Scene {
     // Throws std::runtime_error naming the file that cannot be used. The warnings must outlive the scene.
     Scene(const std::filesystem::path& mesh, const std::filesystem::path& floor, Warnings& warnings);
 
-    // What the statue's materials have and the rung does not draw, each once, in lines that begin with `where`.
+    // What the statue's materials have and the rung does not draw, each once, in lines that begin with
+    // `where`.
     std::vector<std::string> notDrawn(const std::string& where) const;
 
     // A draw and the variant of the pass's shaders that it needs; its uniforms are those of every variant.

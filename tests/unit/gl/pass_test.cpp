@@ -56,7 +56,8 @@ void main() { color = texture(source, uv); }
 TEST_F(PassTest, usedByLeavesOutWhatAVariantDoesNotUse) {
     const Framebuffer target({{"out"}}, {2, 2});
     EXPECT_TRUE(usedBy(flat, std::vector<Input>{{"source", target.color()}}).empty());
-    draw(target, {.program = flat, .uniforms = usedBy(flat, {{"flat_color", red}, {"no_such_color", green}})});
+    draw(target,
+         {.program = flat, .uniforms = usedBy(flat, {{"flat_color", red}, {"no_such_color", green}})});
     EXPECT_EQ(pixelOf(target.color(), 0, 0), red);
 }
 
