@@ -1,6 +1,7 @@
 // Binding everything one pass needs, drawing it, and counting its bytes.
 #include "gl/pass.hpp"
 
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 
@@ -39,6 +40,8 @@ void clear(const Framebuffer& target, const Pass& pass) {
     if (pass.clear_depth) glClearBufferfv(GL_DEPTH, 0, &*pass.clear_depth);
 }
 
+bool uses(const Program& program, const std::string& uniform) { return program.uniforms().contains(uniform); }
+
 // Sets inputs and uniforms of a program and remembers which were given.
 class Bindings {
   public:
@@ -54,18 +57,17 @@ class Bindings {
     Bindings(const Bindings&) = delete;
     Bindings& operator=(const Bindings&) = delete;
 
-    void set(const std::vector<Input>& inputs, const std::vector<UniformSetting>& uniforms) {
-        for (const Input& input : inputs) {
-            const int unit = static_cast<int>(units_.try_emplace(input.sampler, units_.size()).first->second);
-            glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
-            glBindTexture(GL_TEXTURE_2D, input.texture.id());
-            program_.set(input.sampler, unit);
-            given_.insert(input.sampler);
-        }
-        for (const UniformSetting& uniform : uniforms) {
-            program_.set(uniform.name, uniform.value);
-            given_.insert(uniform.name);
-        }
+    // A pass or a draw: all that it names itself, and what the program uses of its part.
+    template <class PassOrDraw>
+    void set(const PassOrDraw& from) {
+        for (const Input& input : from.part.inputs)
+            if (uses(program_, input.sampler)) set(input);
+        for (const UniformSetting& uniform : from.part.uniforms)
+            if (uses(program_, uniform.name)) set(uniform);
+        for (const Input& input : from.inputs)
+            set(input);
+        for (const UniformSetting& uniform : from.uniforms)
+            set(uniform);
     }
 
     void requireAll() const {
@@ -75,6 +77,18 @@ class Bindings {
     }
 
   private:
+    void set(const Input& input) {
+        const int unit = static_cast<int>(units_.try_emplace(input.sampler, units_.size()).first->second);
+        glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
+        glBindTexture(GL_TEXTURE_2D, input.texture->id());
+        program_.set(input.sampler, unit);
+        given_.insert(input.sampler);
+    }
+    void set(const UniformSetting& uniform) {
+        program_.set(uniform.name, uniform.value);
+        given_.insert(uniform.name);
+    }
+
     const Program& program_;
     std::map<std::string, std::size_t> units_;
     std::set<std::string> given_;
@@ -83,14 +97,14 @@ class Bindings {
 void drawAll(const Pass& pass, const Mesh& full_screen_triangle) {
     if (pass.draws.empty()) {
         Bindings bindings(pass.program);
-        bindings.set(pass.inputs, pass.uniforms);
+        bindings.set(pass);
         bindings.requireAll();
         (pass.mesh != nullptr ? *pass.mesh : full_screen_triangle).draw(pass.instances);
     }
     for (const Draw& draw : pass.draws) { // each from the pass's own values: no draw sees another's
         Bindings bindings(draw.program != nullptr ? *draw.program : pass.program);
-        bindings.set(pass.inputs, pass.uniforms);
-        bindings.set(draw.inputs, draw.uniforms);
+        bindings.set(pass);
+        bindings.set(draw);
         bindings.requireAll();
         draw.mesh.draw(1, draw.first_index, draw.index_count);
     }
@@ -112,19 +126,14 @@ class Scope {
 
 } // namespace
 
-std::vector<Input> usedBy(const Program& program, const std::vector<Input>& inputs) {
-    std::vector<Input> used;
-    for (const Input& input : inputs)
-        if (program.uniforms().contains(input.sampler)) used.push_back(input);
-    return used;
+ShaderPart& ShaderPart::operator+=(const ShaderPart& other) {
+    defines.insert(defines.end(), other.defines.begin(), other.defines.end());
+    inputs.insert(inputs.end(), other.inputs.begin(), other.inputs.end());
+    uniforms.insert(uniforms.end(), other.uniforms.begin(), other.uniforms.end());
+    return *this;
 }
 
-std::vector<UniformSetting> usedBy(const Program& program, const std::vector<UniformSetting>& uniforms) {
-    std::vector<UniformSetting> used;
-    for (const UniformSetting& uniform : uniforms)
-        if (program.uniforms().contains(uniform.name)) used.push_back(uniform);
-    return used;
-}
+ShaderPart operator+(ShaderPart one, const ShaderPart& other) { return one += other; }
 
 void drawPass(const std::string& name, const Framebuffer& target, const Pass& pass,
               const Mesh& full_screen_triangle) {
@@ -147,15 +156,23 @@ double bytesPerPixel(const Framebuffer& target, const Pass& pass) {
         if (touched) bytes += info.bytes * (also_read ? 2 : 1);
     }
     std::set<GLuint> counted;
-    const auto addInputs = [&](const std::vector<Input>& inputs) {
-        for (const Input& input : inputs)
-            if (counted.insert(input.texture.id()).second)
-                bytes += formatInfo(input.texture.format()).bytes * area(input.texture.size()) /
-                         area(target.size());
+    const auto add = [&](const Input& input) {
+        if (counted.insert(input.texture->id()).second)
+            bytes +=
+                formatInfo(input.texture->format()).bytes * area(input.texture->size()) / area(target.size());
     };
-    addInputs(pass.inputs);
-    for (const Draw& draw : pass.draws)
-        addInputs(draw.inputs);
+    const auto addUsed = [&](const ShaderPart& part, const Program& program) {
+        for (const Input& input : part.inputs)
+            if (uses(program, input.sampler)) add(input);
+    };
+    std::for_each(pass.inputs.begin(), pass.inputs.end(), add);
+    if (pass.draws.empty()) addUsed(pass.part, pass.program);
+    for (const Draw& draw : pass.draws) {
+        const Program& program = draw.program != nullptr ? *draw.program : pass.program;
+        addUsed(pass.part, program);
+        addUsed(draw.part, program);
+        std::for_each(draw.inputs.begin(), draw.inputs.end(), add);
+    }
     return bytes;
 }
 

@@ -10,10 +10,13 @@
 
 namespace gll {
 
-// A sampler uniform and the texture it reads.
+// A sampler uniform and the texture it reads, which must live until the pass is drawn.
 struct Input {
+    Input(std::string sampler_name, const Texture& read) : sampler(std::move(sampler_name)), texture(&read) {}
+    Input(std::string, const Texture&&) = delete;
+
     std::string sampler;
-    const Texture& texture;
+    const Texture* texture;
 };
 
 struct UniformSetting {
@@ -21,16 +24,29 @@ struct UniformSetting {
     UniformValue value;
 };
 
+// What one technique hands to the shaders of others: the defines that say which variant of it they are to
+// include, and whatever any variant of theirs may read of it. A pass takes what its program uses and leaves
+// the rest.
+struct ShaderPart {
+    Defines defines = {};
+    std::vector<Input> inputs = {};
+    std::vector<UniformSetting> uniforms = {};
+
+    ShaderPart& operator+=(const ShaderPart& other);
+};
+ShaderPart operator+(ShaderPart one, const ShaderPart& other);
+
 enum class DepthTest { off, less, less_equal }; // on: depth is also written
 enum class Cull { none, back };
 enum class Blend { replace, add }; // add: destination + source (ONE, ONE)
 
-// One draw call of a pass that has several: its mesh (or a part of it) and what it sets over the pass's own
+// One draw call of a pass that has several: its mesh (or a piece of it) and what it sets over the pass's own
 // program, inputs and uniforms, for itself alone.
 struct Draw {
     const Mesh& mesh;
     std::vector<Input> inputs = {};
     std::vector<UniformSetting> uniforms = {};
+    ShaderPart part = {};
     std::uint32_t first_index = 0;
     std::uint32_t index_count = 0;    // 0: to the end of the mesh
     const Program* program = nullptr; // null: the pass's
@@ -40,6 +56,7 @@ struct Pass {
     const Program& program;
     std::vector<Input> inputs = {};
     std::vector<UniformSetting> uniforms = {};
+    ShaderPart part = {};       // of which the program uses some; its defines are those it was made with
     const Mesh* mesh = nullptr; // null, and no draws: the screen-covering triangle
     int instances = 1;
     std::vector<Draw> draws = {}; // in place of mesh, where a pass draws several
@@ -53,11 +70,6 @@ struct Pass {
     std::optional<float> clear_depth = {};
     bool generate_mipmaps = false; // of every mipmapped attachment, from what was drawn; see Texture
 };
-
-// Those of the inputs or uniforms that the program uses: for a pass whose settings choose among variants of a
-// shader, some of which need less.
-std::vector<Input> usedBy(const Program& program, const std::vector<Input>& inputs);
-std::vector<UniformSetting> usedBy(const Program& program, const std::vector<UniformSetting>& uniforms);
 
 // Draws the pass into the target. full_screen_triangle serves a pass without a mesh. Throws
 // std::invalid_argument where a uniform or sampler of the program is not given, is given twice with another

@@ -1,10 +1,10 @@
 // Choosing between window and headless, and turning errors into one line and an exit code.
 #include "run/run.hpp"
 
-#include "app/cost.hpp"
-#include "app/headless.hpp"
-#include "app/options.hpp"
-#include "app/usage_error.hpp"
+#include "run/cost.hpp"
+#include "run/headless.hpp"
+#include "run/options.hpp"
+#include "rung/usage_error.hpp"
 #include "window/window.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ int renderInstead(Options options, const NoWindow& error, const RungInfo& info, 
 
 int showWindow(const Options& options, const RungInfo& info, Settings& settings) {
     try {
-        return runWindow(options, info, settings);
+        return runWindow(options.request, info, settings);
     } catch (const NoWindow& error) {
         if (!options.or_picture) throw;
         return renderInstead(options, error, info, settings);

@@ -1,7 +1,7 @@
 // The whole main() of a rung: command line, then a window or headless rendering, then an exit code.
 #pragma once
 
-#include "app/rung.hpp"
+#include "rung/rung.hpp"
 
 namespace gll {
 

@@ -2,7 +2,7 @@
 // declarations.
 #pragma once
 
-#include "app/budget.hpp"
+#include "budget/budget.hpp"
 
 #include <optional>
 #include <string>

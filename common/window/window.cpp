@@ -1,7 +1,7 @@
 // The window by GLFW: clock, keys, mouse, presenting and saving frames.
 #include "window/window.hpp"
 
-#include "app/capture.hpp"
+#include "rung/capture.hpp"
 #include "window/panel.hpp"
 
 #define GLFW_INCLUDE_NONE
@@ -151,11 +151,10 @@ class PassTimer final : public PassObserver {
 // The running window: what the callbacks change and the loop reads.
 class RungWindow {
   public:
-    RungWindow(const Options& options, const RungInfo& info, Settings& settings)
-        : info_(info), settings_(settings), given_(options.request.files),
-          context_(info.name + " - GL Ladder", options.request.size),
-          renderer_(context_, info, options.request.files), clock_(options.request.first_frame),
-          timer_(context_.info().is_software) {
+    RungWindow(const FrameRequest& request, const RungInfo& info, Settings& settings)
+        : info_(info), settings_(settings), given_(request.files),
+          context_(info.name + " - GL Ladder", request.size), renderer_(context_, info, request.files),
+          clock_(request.first_frame), timer_(context_.info().is_software) {
         glfwSetWindowUserPointer(context_.window(), this);
         glfwSetKeyCallback(context_.window(), onKey);
         glfwSetCursorPosCallback(context_.window(), onCursor);
@@ -383,8 +382,9 @@ class RungWindow {
         request.size = size;
         request.first_frame = request.last_frame = state_.frame;
         request.sets = settings_.changed();
+        request.files = given_;
         try {
-            search_.emplace(budgetCommand(budget, request, given_, headlessContext()));
+            search_.emplace(budgetCommand(budget, request, headlessContext()));
             search_start_ = Clock::now();
             state_.search_answer.clear();
         } catch (const std::runtime_error& error) {
@@ -413,12 +413,11 @@ class RungWindow {
             request.first_frame = request.last_frame = state_.frame;
             // What the frame was rendered with: the panel may have changed a setting since.
             request.sets = rendered_sets_;
+            request.files = given_;
             request.out = stem + "_again.png";
-            const std::string line = shellLine(headlessCommand(request, given_, headlessContext()));
+            const std::string line = shellLine(headlessCommand(request, headlessContext()));
 
-            Image image = readTexture(renderer_.presented().color());
-            image.color_space = ColorSpace::srgb;
-            saveImage(stem + ".png", forFile(image, ".png"));
+            saveImage(stem + ".png", forFile(renderer_.image(), ".png"));
             std::ofstream text(stem + ".txt");
             text << line << "\n";
             text.close();
@@ -455,11 +454,9 @@ class RungWindow {
 
 } // namespace
 
-int runWindow(const Options& options, const RungInfo& info, Settings& settings) {
-    settings.applyPreset(options.request.preset);
-    for (const std::string& set : options.request.sets)
-        settings.set(set);
-    RungWindow(options, info, settings).loop();
+int runWindow(const FrameRequest& request, const RungInfo& info, Settings& settings) {
+    request.applyTo(settings);
+    RungWindow(request, info, settings).loop();
     return 0;
 }
 

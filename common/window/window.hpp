@@ -1,7 +1,7 @@
 // A rung in a window: the frame clock, the keys and the mouse, and the panel.
 #pragma once
 
-#include "app/options.hpp"
+#include "rung/request.hpp"
 
 #include <stdexcept>
 #include <string>
@@ -19,6 +19,6 @@ struct NoWindow : std::runtime_error {
 
 // Opens a window of the size asked for and renders until it is closed. Throws NoWindow before anything was
 // drawn. Returns 0.
-int runWindow(const Options& options, const RungInfo& info, Settings& settings);
+int runWindow(const FrameRequest& request, const RungInfo& info, Settings& settings);
 
 } // namespace gll

@@ -1,9 +1,9 @@
 // 02_auto_exposure against double: every reduction, the key and the exposure, adaptation over time, and what
 // the rung's command line makes of them.
 #include "02_auto_exposure/auto_exposure.hpp"
-#include "app/capture.hpp"
-#include "app/context.hpp"
-#include "app/resources.hpp"
+#include "rung/capture.hpp"
+#include "rung/context.hpp"
+#include "rung/resources.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 #include "tone_reference.hpp"

@@ -1,11 +1,11 @@
 // Every tone map and encoding of the shaders over five decades of light, against double; and what no light
 // should be: infinite, negative, not a number.
 #include "01_hdr/tone_map.hpp"
-#include "app/capture.hpp"
-#include "app/context.hpp"
-#include "app/resources.hpp"
-#include "app/settings.hpp"
 #include "gl/pass.hpp"
+#include "rung/capture.hpp"
+#include "rung/context.hpp"
+#include "rung/resources.hpp"
+#include "rung/settings.hpp"
 #include "tone_reference.hpp"
 
 #include <cstdio>
@@ -50,7 +50,7 @@ class ToneMapTest : public testing::Test {
         drawPass("tone map", target,
                  {.program = program,
                   .inputs = {{"scene_color", input}},
-                  .uniforms = usedBy(program, {{"white_point", 4.0F}})},
+                  .part = {.uniforms = {{"white_point", 4.0F}}}},
                  triangle);
         const Image image = readTexture(target.color());
         const auto& pixels = std::get<std::vector<float>>(image.pixels);

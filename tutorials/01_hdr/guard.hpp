@@ -2,7 +2,7 @@
 // a guard is best understood by its absence.
 #pragma once
 
-#include "app/settings.hpp"
+#include "rung/settings.hpp"
 
 namespace gll {
 

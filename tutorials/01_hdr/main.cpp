@@ -4,9 +4,9 @@
 #include "01_hdr/boxes.hpp"
 #include "01_hdr/guard.hpp"
 #include "01_hdr/tone_map.hpp"
-#include "app/camera.hpp"
-#include "app/scene_image.hpp"
 #include "run/run.hpp"
+#include "rung/camera.hpp"
+#include "rung/scene_image.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -165,7 +165,7 @@ class Hdr final : public Rung {
         frame.pass("display", frame.presented(),
                    {.program = program,
                     .inputs = {{"hdr", target("hdr", options_.format.name(), frame.size()).color()}},
-                    .uniforms = usedBy(program, options_.display.uniforms())});
+                    .part = options_.display.part()});
     }
     // end excerpt
 
@@ -178,15 +178,13 @@ class Hdr final : public Rung {
                 define.value = right.back().value; // both choices list the same curves
         const Program& program = shaders_.fullScreen("01_hdr/display.frag", defines);
         const auto width = static_cast<float>(frame.size().x);
-        std::vector<UniformSetting> uniforms = {{"exposure", std::exp2(options_.right_exposure_ev)},
-                                                {"white_point", options_.display.white_point},
-                                                {"split_px", std::round(options_.split * width)},
-                                                {"frame_width_px", width}};
         frame.pass(
             "right_display", frame.presented(),
             {.program = program,
              .inputs = {{"hdr", target("right_hdr", options_.right_format.name(), frame.size()).color()}},
-             .uniforms = usedBy(program, uniforms)});
+             .uniforms = {{"split_px", std::round(options_.split * width)}, {"frame_width_px", width}},
+             .part = {.uniforms = {{"exposure", std::exp2(options_.right_exposure_ev)},
+                                   {"white_point", options_.display.white_point}}}});
     }
 
     ShaderLibrary& shaders_;
@@ -202,5 +200,5 @@ int main(int argc, char** argv) {
     return gll::run<Hdr>(argc, argv,
                          {.name = "01_hdr",
                           .summary = "A dark hall, a bright window: HDR targets and tone maps.",
-                          .takes_image = true});
+                          .takes = {"image"}});
 }

@@ -2,8 +2,8 @@
 // lib/tone_map.glsl and lib/encode.glsl.
 #pragma once
 
-#include "app/settings.hpp"
 #include "gl/pass.hpp"
+#include "rung/settings.hpp"
 
 #include <array>
 #include <cmath>
@@ -29,11 +29,11 @@ struct ToneMapOptions {
         settings.shared("01_hdr", {"exposure_ev", "tone_map", "white_point", "encode"});
     }
 
-    // Of the shader variant.
+    // For shaders that include lib/tone_map.glsl and lib/encode.glsl.
     Defines defines() const { return tone_map.defines() + encode.defines(); }
-    // What any variant may need; usedBy() leaves what this one does.
-    std::vector<UniformSetting> uniforms() const {
-        return {{"exposure", std::exp2(exposure_ev)}, {"white_point", white_point}};
+    ShaderPart part() const {
+        return {.defines = defines(),
+                .uniforms = {{"exposure", std::exp2(exposure_ev)}, {"white_point", white_point}}};
     }
 
     Number exposure_ev;

@@ -44,11 +44,11 @@ const Texture& LuminanceMeter::measure(Frame& frame, const Texture& hdr, float w
     frame.pass("metered", metered_,
                {.program = program,
                 .inputs = {{"source", source}},
-                .uniforms = usedBy(program, {{"epsilon", options_.epsilon},
-                                             {"last_level", levelCount(hdr.size()) - 1},
-                                             {"white_point", white_point},
-                                             {"low_share", options_.low_percent / 100},
-                                             {"high_share", options_.high_percent / 100}})});
+                .part = {.uniforms = {{"epsilon", options_.epsilon},
+                                      {"last_level", levelCount(hdr.size()) - 1},
+                                      {"white_point", white_point},
+                                      {"low_share", options_.low_percent / 100},
+                                      {"high_share", options_.high_percent / 100}}}});
     return metered_.color();
 }
 
@@ -61,7 +61,7 @@ const Texture& LuminanceMeter::drawMipmaps(Frame& frame, const Texture& hdr, flo
     frame.pass("log_luminance", target,
                {.program = program,
                 .inputs = {{"hdr", hdr}},
-                .uniforms = usedBy(program, {{"epsilon", options_.epsilon}, {"white_point", white_point}}),
+                .part = {.uniforms = {{"epsilon", options_.epsilon}, {"white_point", white_point}}},
                 .generate_mipmaps = true});
     return target.color();
 }
@@ -85,7 +85,7 @@ const Texture& LuminanceMeter::drawAverages(Frame& frame, const Texture& hdr) {
         frame.pass("average" + std::to_string(step), averages_[step],
                    {.program = program,
                     .inputs = {{"source", *source}},
-                    .uniforms = usedBy(program, {{"target_size", size}, {"epsilon", options_.epsilon}})});
+                    .part = {.uniforms = {{"target_size", size}, {"epsilon", options_.epsilon}}}});
         source = &averages_[step++].color();
     } while (source->size() != glm::ivec2(1));
     return *source;

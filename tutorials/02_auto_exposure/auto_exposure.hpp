@@ -3,8 +3,8 @@
 #pragma once
 
 #include "01_hdr/guard.hpp"
-#include "app/frame.hpp"
-#include "app/settings.hpp"
+#include "rung/frame.hpp"
+#include "rung/settings.hpp"
 
 #include <deque>
 #include <functional>

@@ -2,10 +2,10 @@
 // metered, the eye adapts to it over time, and the exposure that follows brings the frame into a display's
 // range.
 #include "01_hdr/tone_map.hpp"
-#include "app/camera.hpp"
-#include "app/capture.hpp"
 #include "auto_exposure.hpp"
 #include "run/run.hpp"
+#include "rung/camera.hpp"
+#include "rung/capture.hpp"
 #include "scene.hpp"
 
 #include <algorithm>
@@ -131,7 +131,7 @@ class AutoExposureRung final : public Rung {
         frame.pass("composite", frame.presented(),
                    {.program = program,
                     .inputs = {{"hdr", hdr_.color()}, {"exposure", *exposure_state_}},
-                    .uniforms = usedBy(program, {{"white_point", options_.display.white_point}})});
+                    .part = {.uniforms = {{"white_point", options_.display.white_point}}}});
     }
 
     // Figures and histogram at the lower right, where the window's panel does not reach, as large as the

@@ -2,8 +2,8 @@
 // arches.
 #pragma once
 
-#include "app/camera.hpp"
 #include "gl/mesh.hpp"
+#include "rung/camera.hpp"
 
 namespace gll {
 

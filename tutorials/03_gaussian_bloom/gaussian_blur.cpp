@@ -203,12 +203,12 @@ const Texture& GaussianBlur::draw(Frame& frame, ShaderLibrary& shaders, const Te
     const Program& unguarded = program({{"UNGUARDED", "1"}});
     const auto pass = [&](const std::string& name, const Framebuffer& target, const Texture& source,
                           glm::vec2 step, const Program& blur) {
-        frame.pass(
-            name, target,
-            {.program = blur,
-             .inputs = {{"source", source}},
-             .uniforms = usedBy(
-                 blur, {{"uv_step", step}, {"offsets", plan.taps.offsets}, {"weights", plan.taps.weights}})});
+        frame.pass(name, target,
+                   {.program = blur,
+                    .inputs = {{"source", source}},
+                    .part = {.uniforms = {{"uv_step", step},
+                                          {"offsets", plan.taps.offsets},
+                                          {"weights", plan.taps.weights}}}});
     };
     if (plan.pairs == 0) pass("half", blurred_, bright, along_row, guarded);
     for (int i = 1; i <= plan.pairs; ++i) {

@@ -2,7 +2,7 @@
 // on the CPU, and the passes that fetch them.
 #pragma once
 
-#include "app/frame.hpp"
+#include "rung/frame.hpp"
 
 #include <string_view>
 #include <vector>

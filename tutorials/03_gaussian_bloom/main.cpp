@@ -3,10 +3,10 @@
 // mapping.
 #include "01_hdr/guard.hpp"
 #include "01_hdr/tone_map.hpp"
-#include "app/camera.hpp"
-#include "app/scene_image.hpp"
 #include "gaussian_blur.hpp"
 #include "run/run.hpp"
+#include "rung/camera.hpp"
+#include "rung/scene_image.hpp"
 #include "street.hpp"
 
 #include <cmath>
@@ -151,14 +151,15 @@ class GaussianBloom final : public Rung {
         const Program& program =
             shaders_.fullScreen("lib/present.frag", options_.display.defines() + options_.guard.defines() +
                                                         Defines{{"BLOOM", blurred ? "1" : "0"}});
-        std::vector<UniformSetting> uniforms = options_.display.uniforms();
+        std::vector<UniformSetting> uniforms;
         std::vector<Input> inputs = {{"hdr", scene_->color(0)}};
         if (blurred) {
             inputs.push_back({"bloom", *blurred});
             uniforms.push_back({"intensity", options_.strength});
         }
-        frame.pass("composite", frame.presented(),
-                   {.program = program, .inputs = inputs, .uniforms = usedBy(program, uniforms)});
+        frame.pass(
+            "composite", frame.presented(),
+            {.program = program, .inputs = inputs, .uniforms = uniforms, .part = options_.display.part()});
     }
     // end excerpt
 
@@ -177,5 +178,5 @@ int main(int argc, char** argv) {
         argc, argv,
         {.name = "03_gaussian_bloom",
          .summary = "A street at night: bright pass as a second target, Gaussian blurs.",
-         .takes_image = true});
+         .takes = {"image"}});
 }

@@ -3,9 +3,9 @@
 #include "01_hdr/tone_map.hpp"
 #include "04_pyramid_bloom/harbour.hpp"
 #include "04_pyramid_bloom/pyramid_bloom.hpp"
-#include "app/camera.hpp"
-#include "app/scene_image.hpp"
 #include "run/run.hpp"
+#include "rung/camera.hpp"
+#include "rung/scene_image.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -136,10 +136,9 @@ class PyramidBloomRung final : public Rung {
     void present(Frame& frame, const Texture& linear_picture) {
         const Program& program =
             shaders_.fullScreen("lib/present.frag", options_.display.defines() + Defines{{"BLOOM", "0"}});
-        frame.pass("present", frame.presented(),
-                   {.program = program,
-                    .inputs = {{"hdr", linear_picture}},
-                    .uniforms = usedBy(program, options_.display.uniforms())});
+        frame.pass(
+            "present", frame.presented(),
+            {.program = program, .inputs = {{"hdr", linear_picture}}, .part = options_.display.part()});
     }
 
     // The first picture, then every level, in rows of equal frames.
@@ -162,7 +161,7 @@ class PyramidBloomRung final : public Rung {
                                                   "04_pyramid_bloom/sheet.frag", options_.display.defines());
         frame.pass("sheet", frame.presented(),
                    {.program = program,
-                    .uniforms = usedBy(program, options_.display.uniforms()),
+                    .part = options_.display.part(),
                     .draws = draws,
                     .clear_color = glm::vec4(0.1F, 0.1F, 0.1F, 1)});
     }
@@ -186,5 +185,5 @@ int main(int argc, char** argv) {
     return gll::run<PyramidBloomRung>(argc, argv,
                                       {.name = "04_pyramid_bloom",
                                        .summary = "A harbour at night: bloom by a pyramid of blurred levels.",
-                                       .takes_image = true});
+                                       .takes = {"image"}});
 }

@@ -145,11 +145,10 @@ void PyramidBloom::drawDownBySplines(Frame& frame, const Texture& source,
             Defines{{"BRIGHT", bright ? "1" : "0"}, {"DEGREE", bright ? "1" : "3"}, {"WEIGHTS_EVEN", "0"},
                     {"WEIGHTS_HEIGHT", "1"},        {"WEIGHTS_AREA", "2"},          {"WEIGHTS", weights}};
         const Program& program = shaders_.fullScreen("04_pyramid_bloom/spline.frag", defines);
-        frame.pass(
-            name, target,
-            {.program = program,
-             .inputs = {{"source", from}},
-             .uniforms = usedBy(program, {{"threshold", parameters.threshold}, {"knee", parameters.knee}})});
+        frame.pass(name, target,
+                   {.program = program,
+                    .inputs = {{"source", from}},
+                    .part = {.uniforms = {{"threshold", parameters.threshold}, {"knee", parameters.knee}}}});
     };
     draw("bright", levels_[0], source, true);
     for (std::size_t i = 1; i < levels_.size(); ++i)

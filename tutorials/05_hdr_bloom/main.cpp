@@ -3,9 +3,9 @@
 // mapped.
 #include "01_hdr/tone_map.hpp"
 #include "04_pyramid_bloom/pyramid_bloom.hpp"
-#include "app/camera.hpp"
-#include "app/scene_image.hpp"
 #include "run/run.hpp"
+#include "rung/camera.hpp"
+#include "rung/scene_image.hpp"
 #include "swarm.hpp"
 
 #include <algorithm>
@@ -117,14 +117,15 @@ class HdrBloom final : public Rung {
         const Defines with_bloom = {{"BLOOM", bloom != nullptr ? "1" : "0"}};
         const Program& program = shaders_.fullScreen(
             "lib/present.frag", options_.display.defines() + options_.filters.guard.defines() + with_bloom);
-        std::vector<UniformSetting> uniforms = usedBy(program, options_.display.uniforms());
+        std::vector<UniformSetting> uniforms;
         std::vector<Input> inputs = {{"hdr", hdr_->color()}};
         if (bloom != nullptr) {
             inputs.push_back({"bloom", *bloom});
             uniforms.push_back({"intensity", options_.intensity * PyramidBloom::share(bloomParameters())});
         }
-        frame.pass("composite", frame.presented(),
-                   {.program = program, .inputs = inputs, .uniforms = uniforms});
+        frame.pass(
+            "composite", frame.presented(),
+            {.program = program, .inputs = inputs, .uniforms = uniforms, .part = options_.display.part()});
     }
     // end excerpt
 
@@ -153,5 +154,5 @@ int main(int argc, char** argv) {
     return gll::run<HdrBloom>(argc, argv,
                               {.name = "05_hdr_bloom",
                                .summary = "A swarm of glowing cubes: HDR target, bloom, ACES.",
-                               .takes_image = true});
+                               .takes = {"image"}});
 }

@@ -2,9 +2,9 @@
 // glossy reflection. Everything but the picture itself is made when first asked for.
 #pragma once
 
-#include "app/warnings.hpp"
 #include "gl/texture.hpp"
 #include "io/image.hpp"
+#include "rung/warnings.hpp"
 
 #include <array>
 #include <filesystem>

@@ -1,9 +1,9 @@
 // 10_deferred: a cat statue on a brick floor, its materials written once into a G-buffer and lit afterwards:
 // a shadow-casting sun, three coloured lights going round, an environment, and ambient occlusion.
 #include "01_hdr/tone_map.hpp"
-#include "app/camera.hpp"
 #include "environment.hpp"
 #include "run/run.hpp"
+#include "rung/camera.hpp"
 #include "scene.hpp"
 
 #include <algorithm>
@@ -188,17 +188,11 @@ class Deferred final : public Rung {
                                                         : MaterialFilter::anisotropic;
     }
 
-    // Each draw with its variant of the program, and of its inputs and uniforms those that this one uses.
-    std::vector<Draw> withPrograms(const std::vector<Scene::VariantDraw>& scene, const std::string& stages,
+    // Each draw with its variant of the program.
+    std::vector<Draw> withPrograms(std::vector<Draw> draws, const std::string& stages,
                                    const Defines& defines) {
-        std::vector<Draw> draws;
-        for (const auto& [draw, variant] : scene) {
-            const Program& program = shaders_.program(stages + ".vert", stages + ".frag", defines + variant);
-            Draw& added = draws.emplace_back(draw);
-            added.program = &program;
-            added.inputs = usedBy(program, draw.inputs);
-            added.uniforms = usedBy(program, draw.uniforms);
-        }
+        for (Draw& draw : draws)
+            draw.program = &shaders_.program(stages + ".vert", stages + ".frag", defines + draw.part.defines);
         return draws;
     }
 
@@ -248,19 +242,19 @@ class Deferred final : public Rung {
         const Program& program = shaders_.fullScreen("10_deferred/ssao.frag", defines);
         const int slices = std::max(samples / 8, 1);
         const glm::vec2 scale(clip_from_view_[0][0], clip_from_view_[1][1]);
-        frame.pass("ssao", blurred() ? noisy_[0] : occlusion(),
-                   {.program = program,
-                    .inputs = usedBy(program, gbufferInputs()),
-                    .uniforms = usedBy(program, {{"view_from_world", view_from_world_},
-                                                 {"view_z_from_depth", viewZFromDepth()},
-                                                 {"view_from_ndc", 1.0F / scale},
-                                                 {"half_uv_from_view", 0.5F * scale},
-                                                 {"pixel_step", halved() ? 2 : 1},
-                                                 {"radius", options_.ssao_radius},
-                                                 {"slices", slices},
-                                                 {"steps", std::max(samples / (2 * slices), 1)},
-                                                 {"bias", options_.ssao_bias},
-                                                 {"strength", options_.ssao_strength}})});
+        frame.pass(
+            "ssao", blurred() ? noisy_[0] : occlusion(),
+            {.program = program,
+             .part = gbufferPart() + ShaderPart{.uniforms = {{"view_from_world", view_from_world_},
+                                                             {"view_z_from_depth", viewZFromDepth()},
+                                                             {"view_from_ndc", 1.0F / scale},
+                                                             {"half_uv_from_view", 0.5F * scale},
+                                                             {"pixel_step", halved() ? 2 : 1},
+                                                             {"radius", options_.ssao_radius},
+                                                             {"slices", slices},
+                                                             {"steps", std::max(samples / (2 * slices), 1)},
+                                                             {"bias", options_.ssao_bias},
+                                                             {"strength", options_.ssao_strength}}}});
         if (!blurred()) return;
         for (const int axis : {0, 1}) {
             glm::vec2 uv_step(0);
@@ -285,33 +279,29 @@ class Deferred final : public Rung {
                         {"SUN", options_.sun ? "1" : "0"},
                         {"POINTS", options_.points ? "1" : "0"},
                         {"ENVIRONMENT", options_.environment ? "1" : "0"}});
-        std::vector<Input> inputs = gbufferInputs();
-        inputs.push_back({"ssao_map", occlusion().color()});
-        inputs.push_back({"shadow_map", shadow_.depth()});
-        inputs.push_back({"environment_map", environment_.map()});
-        std::vector<UniformSetting> uniforms = gbufferUniforms();
-        uniforms.insert(uniforms.end(),
-                        {{"to_sun", to_sun_},
-                         {"view_z_from_world", glm::row(view_from_world_, 2)},
-                         {"shadow_from_world",
-                          glm::scale(glm::translate(glm::mat4(1), glm::vec3(0.5F)), glm::vec3(0.5F)) *
-                              light_clip_from_world_},
-                         {"shadow_texel", 2 * light_half_width / static_cast<float>(options_.shadow_size)},
-                         {"shadow_depth_range", light_far - light_near},
-                         {"point_position", point_positions_},
-                         {"point_color", point_colors_}});
+        ShaderPart part =
+            gbufferPart() +
+            ShaderPart{.inputs = {{"ssao_map", occlusion().color()},
+                                  {"shadow_map", shadow_.depth()},
+                                  {"environment_map", environment_.map()}},
+                       .uniforms = {
+                           {"to_sun", to_sun_},
+                           {"view_z_from_world", glm::row(view_from_world_, 2)},
+                           {"shadow_from_world",
+                            glm::scale(glm::translate(glm::mat4(1), glm::vec3(0.5F)), glm::vec3(0.5F)) *
+                                light_clip_from_world_},
+                           {"shadow_texel", 2 * light_half_width / static_cast<float>(options_.shadow_size)},
+                           {"shadow_depth_range", light_far - light_near},
+                           {"point_position", point_positions_},
+                           {"point_color", point_colors_}}};
         // made when first used: neither is quick
         if (program.uniforms().contains("irradiance_sh"))
-            uniforms.push_back({"irradiance_sh", environment_.irradiance()});
+            part.uniforms.push_back({"irradiance_sh", environment_.irradiance()});
         if (program.uniforms().contains("prefiltered_map")) {
-            inputs.push_back({"prefiltered_map", environment_.prefiltered()});
-            uniforms.push_back({"prefiltered_levels", float(Environment::last_level)});
+            part.inputs.push_back({"prefiltered_map", environment_.prefiltered()});
+            part.uniforms.push_back({"prefiltered_levels", float(Environment::last_level)});
         }
-        frame.pass("lighting", lit_,
-                   {.program = program,
-                    .inputs = usedBy(program, inputs),
-                    .uniforms = usedBy(program, uniforms),
-                    .clear_color = glm::vec4(0)});
+        frame.pass("lighting", lit_, {.program = program, .part = part, .clear_color = glm::vec4(0)});
     }
     // end excerpt
 
@@ -320,54 +310,46 @@ class Deferred final : public Rung {
         if (options_.view == "lit") {
             const Program& program =
                 shaders_.fullScreen("10_deferred/present.frag", options_.display.defines());
-            frame.pass("present", frame.presented(),
-                       {.program = program,
-                        .inputs = {{"lit_map", lit_.color()}},
-                        .uniforms = usedBy(program, options_.display.uniforms())});
+            frame.pass(
+                "present", frame.presented(),
+                {.program = program, .inputs = {{"lit_map", lit_.color()}}, .part = options_.display.part()});
             return;
         }
         const Program& program = shaders_.fullScreen(
             "10_deferred/view.frag", options_.view.defines() + options_.gbuffer.defines() +
                                          options_.ssao.defines() + options_.display.encode.defines());
-        std::vector<Input> inputs = gbufferInputs();
-        inputs.push_back({"ssao_map", occlusion().color()});
-        inputs.push_back({"shadow_map", shadow_.depth()});
-        std::vector<UniformSetting> uniforms = gbufferUniforms();
-        uniforms.push_back({"aspect", frame.aspect()});
-        frame.pass(
-            "present", frame.presented(),
-            {.program = program, .inputs = usedBy(program, inputs), .uniforms = usedBy(program, uniforms)});
+        frame.pass("present", frame.presented(),
+                   {.program = program,
+                    .part = gbufferPart() + ShaderPart{.inputs = {{"ssao_map", occlusion().color()},
+                                                                  {"shadow_map", shadow_.depth()}},
+                                                       .uniforms = {{"aspect", frame.aspect()}}}});
     }
     // end excerpt
 
     void drawFilmstrip(Frame& frame) {
         const Program& program = shaders_.program("10_deferred/filmstrip.vert", "10_deferred/filmstrip.frag",
                                                   options_.gbuffer.defines() + options_.ssao.defines());
-        std::vector<Input> inputs = gbufferInputs();
-        inputs.push_back({"ssao_map", occlusion().color()});
         frame.pass("filmstrip", frame.presented(),
                    {.program = program,
-                    .inputs = usedBy(program, inputs),
-                    .uniforms = usedBy(program, gbufferUniforms()),
+                    .part = gbufferPart() + ShaderPart{.inputs = {{"ssao_map", occlusion().color()}}},
                     .mesh = &filmstrip_});
     }
 
-    // What any variant of a shader may need to read the G-buffer; usedBy() leaves what this one needs.
-    std::vector<Input> gbufferInputs() const {
-        std::vector<Input> inputs = {{"albedo_map", gbuffer_["albedo"]},
-                                     {"normal_map", gbuffer_["normal"]},
-                                     {"depth_map", gbuffer_["depth"]}};
-        if (storesPosition()) inputs.push_back({"position_map", gbuffer_["position"]});
-        return inputs;
-    }
-    std::vector<UniformSetting> gbufferUniforms() const {
+    // For shaders that read the G-buffer.
+    ShaderPart gbufferPart() const {
         const glm::mat3 world_from_view = glm::transpose(glm::mat3(view_from_world_));
-        return {
-            {"camera_position", camera_.position},
-            {"view_z_from_depth", viewZFromDepth()},
-            {"world_from_ray", glm::mat3(world_from_view[0] / clip_from_view_[0][0],
-                                         world_from_view[1] / clip_from_view_[1][1], -world_from_view[2])},
-            {"material_shininess", seed_shininess}};
+        ShaderPart part = {
+            .inputs = {{"albedo_map", gbuffer_["albedo"]},
+                       {"normal_map", gbuffer_["normal"]},
+                       {"depth_map", gbuffer_["depth"]}},
+            .uniforms = {{"camera_position", camera_.position},
+                         {"view_z_from_depth", viewZFromDepth()},
+                         {"world_from_ray",
+                          glm::mat3(world_from_view[0] / clip_from_view_[0][0],
+                                    world_from_view[1] / clip_from_view_[1][1], -world_from_view[2])},
+                         {"material_shininess", seed_shininess}}};
+        if (storesPosition()) part.inputs.push_back({"position_map", gbuffer_["position"]});
+        return part;
     }
 
     // From depth in [0, 1] back through the perspective matrix: view z = x / (depth + y).
@@ -413,5 +395,5 @@ int main(int argc, char** argv) {
         argc, argv,
         {.name = "10_deferred",
          .summary = "A cat on brick: shadow map, G-buffer, ambient occlusion, lighting.",
-         .takes_files = true});
+         .takes = {"mesh", "floor", "environment"}});
 }

@@ -2,9 +2,9 @@
 // unless they are read at different places or a mask needs the alpha.
 #pragma once
 
-#include "app/warnings.hpp"
 #include "gl/texture.hpp"
 #include "io/mesh.hpp"
+#include "rung/warnings.hpp"
 
 #include <glm/vec3.hpp>
 

@@ -191,63 +191,62 @@ const MaterialTextures& Scene::texturesOf(Surface& surface, MaterialFilter filte
     return *textures;
 }
 
-Scene::VariantDraw Scene::drawOf(const Part& part, MaterialFilter filter, bool flip_v) {
+Draw Scene::drawOf(const Part& part, MaterialFilter filter, bool flip_v) {
     Surface& surface = surfaces_[part.surface];
     const MaterialData& data = surface.data;
     const MaterialTextures& textures = texturesOf(surface, filter);
     const bool of_statue = part.mesh == &statue_;
-    VariantDraw result = {
-        .draw = {.mesh = *part.mesh,
-                 .inputs = {{"base_map", textures.base}, {"surface_map", textures.surface}},
+    Draw result = {
+        .mesh = *part.mesh,
+        .part = {.inputs = {{"base_map", textures.base}, {"surface_map", textures.surface}},
                  .uniforms = {{"base_color", glm::vec3(data.base_color)},
                               {"occluded_albedo", surface.occluded_albedo},
                               {"specular_scale", surface.specular_scale},
                               {"shininess", surface.shininess},
                               {"normal_strength", surface.normal_strength},
                               {"material", surface.tag},
-                              {"v_factor_offset", flip_v && of_statue ? glm::vec2(-1, 1) : glm::vec2(1, 0)}},
-                 .first_index = part.first_index,
-                 .index_count = part.index_count},
-        .variant = {}};
-    if (of_statue && statue_has_colors_) result.variant.push_back({"VERTEX_COLOR", "1"});
-    if (of_statue && statue_is_sheet_) result.variant.push_back({"SHEET", "1"});
+                              {"v_factor_offset", flip_v && of_statue ? glm::vec2(-1, 1) : glm::vec2(1, 0)}}},
+        .first_index = part.first_index,
+        .index_count = part.index_count};
+    if (of_statue && statue_has_colors_) result.part.defines.push_back({"VERTEX_COLOR", "1"});
+    if (of_statue && statue_is_sheet_) result.part.defines.push_back({"SHEET", "1"});
     if (!needsSeparateMaps(data)) return result;
 
-    result.variant.push_back({"SEPARATE_MAPS", "1"});
-    result.draw.inputs.push_back({"occlusion_map", textures.occlusion});
-    result.draw.inputs.push_back({"roughness_map", textures.roughness});
+    result.part.defines.push_back({"SEPARATE_MAPS", "1"});
+    result.part.inputs.push_back({"occlusion_map", textures.occlusion});
+    result.part.inputs.push_back({"roughness_map", textures.roughness});
     const auto place = [&](const std::string& name, const TextureData& texture) {
         const glm::mat3x2& t = texture.uv_transform;
-        result.draw.uniforms.push_back(
+        result.part.uniforms.push_back(
             {name + "_transform", glm::mat3(glm::vec3(t[0], 0), glm::vec3(t[1], 0), glm::vec3(t[2], 1))});
-        result.draw.uniforms.push_back({name + "_uv_set", texture.uv_set});
+        result.part.uniforms.push_back({name + "_uv_set", texture.uv_set});
     };
     place("base", data.base_color_texture);
     place("occlusion", data.occlusion_texture);
     place("normal", data.normal_texture);
     place("roughness", data.roughness_texture);
     if (data.alpha_mode == AlphaMode::mask) {
-        result.variant.push_back({"ALPHA_MASK", "1"});
-        result.draw.uniforms.push_back({"opacity", data.base_color.a});
-        result.draw.uniforms.push_back({"alpha_cutoff", data.alpha_cutoff});
+        result.part.defines.push_back({"ALPHA_MASK", "1"});
+        result.part.uniforms.push_back({"opacity", data.base_color.a});
+        result.part.uniforms.push_back({"alpha_cutoff", data.alpha_cutoff});
     }
     return result;
 }
 
-std::vector<Scene::VariantDraw> Scene::materialDraws(MaterialFilter filter, bool flip_v) {
-    std::vector<VariantDraw> draws;
+std::vector<Draw> Scene::materialDraws(MaterialFilter filter, bool flip_v) {
+    std::vector<Draw> draws;
     for (const Part& part : parts_)
         draws.push_back(drawOf(part, filter, flip_v));
     return draws;
 }
 
-std::vector<Scene::VariantDraw> Scene::depthDraws(MaterialFilter filter, bool flip_v) {
+std::vector<Draw> Scene::depthDraws(MaterialFilter filter, bool flip_v) {
     const auto hasHoles = [&](const Part& part) {
         return surfaces_[part.surface].data.alpha_mode == AlphaMode::mask;
     };
-    std::vector<VariantDraw> draws = {{.draw = {.mesh = floor_}, .variant = {}}};
+    std::vector<Draw> draws = {{.mesh = floor_}};
     if (std::none_of(parts_.begin(), parts_.end(), hasHoles)) {
-        draws.push_back({.draw = {.mesh = statue_}, .variant = {}});
+        draws.push_back({.mesh = statue_});
         return draws;
     }
     for (const Part& part : parts_) {
@@ -256,8 +255,7 @@ std::vector<Scene::VariantDraw> Scene::depthDraws(MaterialFilter filter, bool fl
             draws.push_back(drawOf(part, filter, flip_v));
         else
             draws.push_back(
-                {.draw = {.mesh = statue_, .first_index = part.first_index, .index_count = part.index_count},
-                 .variant = {}});
+                {.mesh = statue_, .first_index = part.first_index, .index_count = part.index_count});
     }
     return draws;
 }

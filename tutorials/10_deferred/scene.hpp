@@ -1,9 +1,9 @@
 // The scene of 10_deferred: a statue at most 2.2 high on a floor of 12 x 12, both modelled in world space.
 #pragma once
 
-#include "app/warnings.hpp"
 #include "gl/pass.hpp"
 #include "material.hpp"
+#include "rung/warnings.hpp"
 
 #include <array>
 #include <filesystem>
@@ -22,18 +22,13 @@ class Scene {
     // `where`.
     std::vector<std::string> notDrawn(const std::string& where) const;
 
-    // A draw and the variant of the pass's shaders that it needs; its uniforms are those of every variant.
-    struct VariantDraw {
-        Draw draw;
-        Defines variant;
-    };
-
     // Attributes 0: position, 1: normal, 2: uv, 3: color, 4: second uv; nearest the camera first, so that the
     // depth test spares what is behind. The draws last as long as the scene and until the next call with
-    // another filter. flip_v turns the statue's texture coordinates over.
-    std::vector<VariantDraw> materialDraws(MaterialFilter filter, bool flip_v);
+    // another filter; the defines of a draw's part are the variant of the shaders that it needs. flip_v turns
+    // the statue's texture coordinates over.
+    std::vector<Draw> materialDraws(MaterialFilter filter, bool flip_v);
     // Everything, without materials but for what has holes.
-    std::vector<VariantDraw> depthDraws(MaterialFilter filter, bool flip_v);
+    std::vector<Draw> depthDraws(MaterialFilter filter, bool flip_v);
 
   private:
     struct Surface { // a material and how the seed treats it
@@ -48,7 +43,7 @@ class Scene {
     };
 
     const MaterialTextures& texturesOf(Surface& surface, MaterialFilter filter);
-    VariantDraw drawOf(const Part& part, MaterialFilter filter, bool flip_v);
+    Draw drawOf(const Part& part, MaterialFilter filter, bool flip_v);
 
     Warnings& warnings_;
     Mesh statue_;

@@ -1,6 +1,6 @@
 // PyramidBloom from and into any format, at any size, resized at will, moved and destroyed.
 #include "04_pyramid_bloom/pyramid_bloom.hpp"
-#include "app/resources.hpp"
+#include "rung/resources.hpp"
 #include "gl_test.hpp"
 
 #include <algorithm>

@@ -130,15 +130,15 @@ void main() {
         const Framebuffer target({{.name = "ssao", .format = Format::r8}}, {160, 120});
         draw(target, {.program = ssao,
                       .inputs = {{"normal_map", plane["normal"]}, {"position_map", plane["position"]}},
-                      .uniforms = usedBy(ssao, {{"view_from_world", view_from_world},
-                                                {"half_uv_from_view", 0.5F * glm::vec2(clip_from_view[0][0],
-                                                                                       clip_from_view[1][1])},
-                                                {"pixel_step", 1},
-                                                {"radius", 0.6F},
-                                                {"bias", 0.03F},
-                                                {"strength", 1.7F},
-                                                {"slices", 2},
-                                                {"steps", 4}})});
+                      .part = {.uniforms = {{"view_from_world", view_from_world},
+                                            {"half_uv_from_view",
+                                             0.5F * glm::vec2(clip_from_view[0][0], clip_from_view[1][1])},
+                                            {"pixel_step", 1},
+                                            {"radius", 0.6F},
+                                            {"bias", 0.03F},
+                                            {"strength", 1.7F},
+                                            {"slices", 2},
+                                            {"steps", 4}}}});
         const Image image = readTexture(target.color());
         int below = 0;
         for (const std::uint8_t value : std::get<std::vector<std::uint8_t>>(image.pixels))

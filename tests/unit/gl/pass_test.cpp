@@ -53,11 +53,12 @@ void main() { color = texture(source, uv); }
         "no uniform named no_such_color");
 }
 
-TEST_F(PassTest, usedByLeavesOutWhatAVariantDoesNotUse) {
+TEST_F(PassTest, ofAPartAPassTakesWhatItsProgramUses) {
     const Framebuffer target({{"out"}}, {2, 2});
-    EXPECT_TRUE(usedBy(flat, std::vector<Input>{{"source", target.color()}}).empty());
     draw(target,
-         {.program = flat, .uniforms = usedBy(flat, {{"flat_color", red}, {"no_such_color", green}})});
+         {.program = flat,
+          .part = ShaderPart{.inputs = {{"source", target.color()}}, .uniforms = {{"flat_color", red}}} +
+                  ShaderPart{.uniforms = {{"no_such_color", green}}}});
     EXPECT_EQ(pixelOf(target.color(), 0, 0), red);
 }
 
