@@ -1,10 +1,10 @@
 // 03_gaussian_bloom: its kernels against the formulas, its passes on a single bright pixel, and the targets
 // that its command line writes, all against float64 Gaussians.
 #include "03_gaussian_bloom/gaussian_blur.hpp"
+#include "io/image.hpp"
 #include "rung/capture.hpp"
 #include "rung/context.hpp"
 #include "rung/resources.hpp"
-#include "io/image.hpp"
 #include "support/temporary_folder.hpp"
 #include "tone_reference.hpp"
 

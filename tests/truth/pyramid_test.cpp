@@ -2,10 +2,10 @@
 // double: bright pass, every filter down and up, the blur, the composite, and what the printed forms do to
 // light.
 #include "04_pyramid_bloom/pyramid_bloom.hpp"
+#include "bloom_reference.hpp"
 #include "rung/capture.hpp"
 #include "rung/context.hpp"
 #include "rung/resources.hpp"
-#include "bloom_reference.hpp"
 
 #include <cstdio>
 #include <functional>

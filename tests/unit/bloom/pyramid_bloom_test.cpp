@@ -1,7 +1,7 @@
 // PyramidBloom from and into any format, at any size, resized at will, moved and destroyed.
 #include "04_pyramid_bloom/pyramid_bloom.hpp"
-#include "rung/resources.hpp"
 #include "gl_test.hpp"
+#include "rung/resources.hpp"
 
 #include <algorithm>
 #include <cmath>

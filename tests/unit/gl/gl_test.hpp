@@ -1,9 +1,9 @@
 // What tests of OpenGL objects share: a context of their own, programs from text, pixels to look at.
 #pragma once
 
+#include "gl/pass.hpp"
 #include "rung/capture.hpp"
 #include "rung/context.hpp"
-#include "gl/pass.hpp"
 #include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
 
