@@ -59,6 +59,7 @@ std::vector<std::string> everySetting(const nlohmann::json& settings) {
     for (const auto& setting : settings) {
         const std::string name = setting.at("name").get<std::string>() + "=";
         if (name == "instances=") continue;        // the most there may be take a minute to draw
+        if (name == "shadow_size=") continue;      // and the largest map of shadows half a minute
         if (name.ends_with("tone_map=")) continue; // whose target has eight bits, and is finite
         if (setting.contains("choices"))
             for (const auto& choice : setting.at("choices"))
