@@ -23,6 +23,8 @@
 namespace gll::truth {
 namespace {
 
+using namespace auto_exposure;
+
 std::filesystem::path rung_program;
 
 constexpr double epsilon = 1e-8; // the rung's defaults

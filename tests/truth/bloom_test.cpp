@@ -103,7 +103,7 @@ class Frames {
                     flat + ", " + setting("down_filter", filter), "down" + number(i));
         for (const std::string filter : up_filters)
             ask("flat up0 " + filter, "96x64", flat + ", " + setting("up_filter", filter), "up0");
-        for (const std::string tone_map : tone_maps)
+        for (const std::string tone_map : hdr::tone_maps)
             for (const std::string encoding : encodings)
                 ask("frame " + tone_map + " " + encoding, "101x77",
                     setting("tone_map", tone_map) + ", " + setting("encode", encoding), "", ".png");
@@ -270,7 +270,7 @@ TEST_F(BloomTruth, thePresentedFrameIsSceneAndBloomToneMappedAndEncoded) {
     const Plane light = added(hdr, resampled(bloom, hdr.width, hdr.height, [&](double x, double y) {
                                   return bloom.sample(x, y) * intensity;
                               }));
-    for (const std::string tone_map : tone_maps)
+    for (const std::string tone_map : hdr::tone_maps)
         for (const std::string encoding : encodings) {
             const Plane actual = frames->read("frame " + tone_map + " " + encoding, ".png");
             double largest = 0;

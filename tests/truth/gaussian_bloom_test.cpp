@@ -18,6 +18,7 @@
 namespace gll::truth {
 namespace {
 
+using namespace gaussian_bloom;
 namespace fs = std::filesystem;
 
 constexpr const char* methods[] = {"ping_pong_9tap", "ping_pong_5fetch", "half_resolution_5tap",

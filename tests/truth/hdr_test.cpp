@@ -38,7 +38,7 @@ class HdrTruth : public testing::Test {
         const Json none = Json::array();
         for (const char* format : {"rgba8", "rgb10_a2", "r11f_g11f_b10f", "rgba16f", "rgba32f"})
             ask(std::string(format) + ".exr", {{"format", format}, {"brightness", 3}}, "hdr", none);
-        for (const std::string tone_map : tone_maps) {
+        for (const std::string tone_map : hdr::tone_maps) {
             ask(tone_map + ".png", {{"tone_map", tone_map}, {"format", "rgba32f"}, {"brightness", 3}}, "",
                 none);
             for (const char* value : {"nan", "inf", "-inf", "1e9"})
@@ -125,7 +125,7 @@ TEST_F(HdrTruth, fixedPointClampsAndFloatsKeepTheirShareOfEveryValue) {
 
 TEST_F(HdrTruth, everyToneMapShowsItsFormulaOfTheSceneLight) {
     const Pixels light = read("rgba32f.exr");
-    for (const std::string tone_map : tone_maps) {
+    for (const std::string tone_map : hdr::tone_maps) {
         const Pixels shown = read(tone_map + ".png");
         double largest = 0;
         for (std::size_t i = 0; i < light.size(); ++i) {
@@ -140,7 +140,7 @@ TEST_F(HdrTruth, everyToneMapShowsItsFormulaOfTheSceneLight) {
 
 TEST_F(HdrTruth, aPixelThatIsNoNumberOrInfiniteStaysOnePixelAndBecomesItsLimit) {
     constexpr std::size_t hit = 50 * width + 70;
-    for (const std::string tone_map : tone_maps) {
+    for (const std::string tone_map : hdr::tone_maps) {
         const Pixels good = read(tone_map + ".png");
         for (const std::string value : {"nan", "inf", "-inf", "1e9"}) {
             const Pixels bad = read(tone_map + value + ".png");

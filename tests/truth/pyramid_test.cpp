@@ -17,6 +17,8 @@
 namespace gll::truth {
 namespace {
 
+using namespace pyramid_bloom;
+
 constexpr const char* karis_kinds[] = {"none", "average", "texel", "partial"};
 constexpr const char* down_filters[] = {"5tap", "13tap", "13tap_as_printed", "4tap", "box"};
 constexpr const char* up_filters[] = {"tent", "4tap", "dual", "bilinear"};

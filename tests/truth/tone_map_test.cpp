@@ -35,7 +35,7 @@ class ToneMapTest : public testing::Test {
                                const std::string& encoding = "") {
         Settings settings;
         const Choice tone =
-            settings.choice("tone_map", tone_map, {std::begin(tone_maps), std::end(tone_maps)}, "");
+            settings.choice("tone_map", tone_map, {std::begin(hdr::tone_maps), std::end(hdr::tone_maps)}, "");
         const Choice encode = settings.choice("encode", encoding.empty() ? "gamma22" : encoding,
                                               {std::begin(encodings), std::end(encodings)}, "");
         const Defines encoded = {{"ENCODED", encoding.empty() ? "0" : "1"}};
@@ -91,7 +91,7 @@ std::vector<glm::vec3> colors() {
 TEST_F(ToneMapTest, everyCurveIsItsFormula) {
     // Display values; a code of 8 bits is 3.9e-3. Measured on llvmpipe: below 5e-7. AgX's polynomial has
     // terms of up to 40 that cancel to 1 (measured: 5.4e-6).
-    for (const std::string name : tone_maps) {
+    for (const std::string name : hdr::tone_maps) {
         const double bound = name == "agx" ? 1e-5 : 2e-6;
         for (const auto& input : {greyRamp(), colors()}) {
             const auto output = run(input, name);
@@ -115,7 +115,7 @@ TEST_F(ToneMapTest, everyEncodingIsItsFormulaBehindEveryCurve) {
     // Measured on llvmpipe, whose pow() is made of polynomials for exp2 and log2: below 3e-7.
     constexpr double bound = 2e-6;
     for (const std::string encoding : encodings)
-        for (const std::string name : tone_maps) {
+        for (const std::string name : hdr::tone_maps) {
             const auto input = greyRamp();
             const auto linear = run(input, name);
             const auto output = run(input, name, encoding);
@@ -133,7 +133,7 @@ TEST_F(ToneMapTest, moreLightIsNeverDarkerAndDisplayLightStaysInRange) {
     // Half a step of a float below 1 is 6e-8; subtracting an offset from light of 0.08 costs PBR Neutral a
     // few.
     constexpr float rounding = 3e-7F;
-    for (const std::string name : tone_maps)
+    for (const std::string name : hdr::tone_maps)
         for (const std::string encoding : {"", "gamma22", "srgb"}) {
             const auto output = run(greyRamp(), name, encoding);
             // Where encoded, the slope of the curve near black magnifies what rounding there is.
@@ -166,7 +166,7 @@ TEST_F(ToneMapTest, noInputIsTooMuchOrNoNumber) {
             input.back()[c] = extreme;
         }
     }
-    for (const std::string name : tone_maps)
+    for (const std::string name : hdr::tone_maps)
         for (const std::string encoding : {"", "gamma22", "srgb"}) {
             const auto output = run(input, name, encoding);
             for (std::size_t i = 0; i < input.size(); ++i) {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace gll {
+namespace gll::inline hdr {
 namespace {
 
 struct Vertex {
@@ -54,4 +54,4 @@ Mesh makeBoxes(std::span<const Box> boxes) {
                  .indices = indices});
 }
 
-} // namespace gll
+} // namespace gll::inline hdr

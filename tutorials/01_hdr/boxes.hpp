@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <span>
 
-namespace gll {
+namespace gll::inline hdr {
 
 struct Box {
     glm::vec3 low{0};
@@ -19,4 +19,4 @@ struct Box {
 // Throws std::invalid_argument where there is no box, or one without volume.
 Mesh makeBoxes(std::span<const Box> boxes);
 
-} // namespace gll
+} // namespace gll::inline hdr

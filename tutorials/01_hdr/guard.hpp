@@ -4,7 +4,7 @@
 
 #include "rung/settings.hpp"
 
-namespace gll {
+namespace gll::inline hdr {
 
 struct Guard {
     explicit Guard(Settings& settings)
@@ -17,4 +17,4 @@ struct Guard {
     Toggle on;
 };
 
-} // namespace gll
+} // namespace gll::inline hdr

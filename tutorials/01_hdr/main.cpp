@@ -16,6 +16,7 @@
 
 namespace {
 using namespace gll;
+using namespace gll::hdr;
 
 const std::vector<std::string> formats = {"rgba8", "rgb10_a2", "r11f_g11f_b10f", "rgba16f", "rgba32f"};
 

@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-namespace gll {
+namespace gll::inline hdr { // inline, because most rungs use it
 
 inline constexpr std::array tone_maps = {
     "clamp",    "reinhard",       "reinhard_luminance", "reinhard_extended",
@@ -42,4 +42,4 @@ struct ToneMapOptions {
     Choice encode;
 };
 
-} // namespace gll
+} // namespace gll::inline hdr

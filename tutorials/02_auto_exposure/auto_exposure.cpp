@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gll {
+namespace gll::auto_exposure {
 namespace {
 
 constexpr int reduced_by = 8;         // along either axis, in one step of the area-weighted average
@@ -168,4 +168,4 @@ const Texture& AutoExposure::draw(Frame& frame, const Texture& metered, std::opt
     return exposure_.color();
 }
 
-} // namespace gll
+} // namespace gll::auto_exposure

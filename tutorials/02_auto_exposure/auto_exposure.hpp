@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace gll {
+namespace gll::auto_exposure {
 
 struct AutoExposureOptions {
     explicit AutoExposureOptions(Settings& settings);
@@ -27,7 +27,7 @@ struct AutoExposureOptions {
     Toggle adapt;
     Number adapt_up_s;
     Number adapt_down_s;
-    Guard guard;
+    hdr::Guard guard;
 };
 
 // Reduces a frame's luminances to one number. Targets are kept between frames and made anew where the size
@@ -121,4 +121,4 @@ class AutoExposure {
                           {1, 1}};
 };
 
-} // namespace gll
+} // namespace gll::auto_exposure

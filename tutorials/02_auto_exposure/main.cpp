@@ -15,13 +15,14 @@
 
 namespace {
 using namespace gll;
+using namespace gll::auto_exposure;
 
 constexpr std::array patterns = {"none", "black", "flat", "checkerboard", "one_hot", "ramp"};
 
 struct AutoExposureRungOptions {
     Settings all;
     AutoExposureOptions exposure{all};
-    ToneMapOptions display{all, "reinhard_extended", "srgb", 0.22};
+    hdr::ToneMapOptions display{all, "reinhard_extended", "srgb", 0.22};
     Toggle overlay = all.toggle("overlay", true, "figures and histogram in the picture");
     Number light_ev = all.number("light_ev", 0, -16, 16, "all light of the scene, stops");
     Choice test_pattern = all.choice("test_pattern", "none", {patterns.begin(), patterns.end()},

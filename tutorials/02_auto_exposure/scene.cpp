@@ -9,7 +9,7 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
-namespace gll {
+namespace gll::auto_exposure {
 namespace {
 
 constexpr float pi = 3.14159265358979F;
@@ -264,4 +264,4 @@ Camera walk(int frame_number) {
 }
 // end excerpt
 
-} // namespace gll
+} // namespace gll::auto_exposure

@@ -5,7 +5,7 @@
 #include "gl/mesh.hpp"
 #include "rung/camera.hpp"
 
-namespace gll {
+namespace gll::auto_exposure {
 
 // After as many frames the walk begins anew, to the bit.
 inline constexpr int walk_frames = 960;
@@ -18,4 +18,4 @@ Mesh makeCourtAndHall();
 // From the court through the middle arch into the hall, round, and out again: a closed, smooth path.
 Camera walk(int frame_number);
 
-} // namespace gll
+} // namespace gll::auto_exposure

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace gll {
+namespace gll::gaussian_bloom {
 namespace {
 
 // Row 12 of Pascal's triangle without its two outermost numbers a side, over 4070: 924, 792, 495, 220, 66.
@@ -223,4 +223,4 @@ const Texture& GaussianBlur::draw(Frame& frame, ShaderLibrary& shaders, const Te
 }
 // end excerpt
 
-} // namespace gll
+} // namespace gll::gaussian_bloom

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace gll {
+namespace gll::gaussian_bloom {
 
 // What one pass fetches along its direction. Tap 0 is the pixel itself; every other is fetched on both sides.
 // Offsets are in texels of the pass's target and need not be whole: the texture unit then mixes two texels.
@@ -49,7 +49,7 @@ struct BlurPlan {
     int pairs = 1; // 0: the mean of four texels at half the resolution, and no pass after it
     bool half_resolution = false;
     bool vertical_steps_sideways = false; // the misprint: also the vertical passes fetch along the row
-    Defines guard = {};                   // the defines of a Guard
+    Defines guard = {};                   // the defines of an hdr::Guard
 };
 
 struct BlurRequest {
@@ -87,4 +87,4 @@ class GaussianBlur {
     Framebuffer blurred_;
 };
 
-} // namespace gll
+} // namespace gll::gaussian_bloom

@@ -15,6 +15,7 @@
 
 namespace {
 using namespace gll;
+using namespace gll::gaussian_bloom;
 
 struct GaussianBloomOptions {
     Settings all;
@@ -43,8 +44,8 @@ struct GaussianBloomOptions {
     Choice swizzle = all.choice("swizzle", "corrected", {"corrected", "as_printed"},
                                 "channels that the bright pass copies: red, green, blue or red, blue, green");
     Number strength = all.number("strength", 0.98, 0, 100, "how much blurred light is added to the scene");
-    Guard guard{all};
-    ToneMapOptions display{all, "exposure", "gamma22"};
+    hdr::Guard guard{all};
+    hdr::ToneMapOptions display{all, "exposure", "gamma22"};
     OrbitSettings orbit{all};
     // end excerpt
 

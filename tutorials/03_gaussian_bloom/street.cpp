@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <string_view>
 
-namespace gll {
+namespace gll::gaussian_bloom {
 namespace {
 
 constexpr float pi = 3.14159265358979F;
@@ -319,4 +319,4 @@ StreetLights streetLightsAt(float time_s) {
     return lights;
 }
 
-} // namespace gll
+} // namespace gll::gaussian_bloom

@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-namespace gll {
+namespace gll::gaussian_bloom {
 
 // What shines on walls and ground. Positions in metres, y up; colours are linear radiant intensity.
 struct StreetLights {
@@ -26,4 +26,4 @@ float pulseAt(float time_s);
 
 StreetLights streetLightsAt(float time_s);
 
-} // namespace gll
+} // namespace gll::gaussian_bloom

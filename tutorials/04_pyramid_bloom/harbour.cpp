@@ -11,7 +11,7 @@
 #include <glm/vec4.hpp>
 #include <vector>
 
-namespace gll {
+namespace gll::pyramid_bloom {
 namespace {
 
 using glm::vec2;
@@ -304,4 +304,4 @@ Mesh makeSquare() {
                  .indices = indices});
 }
 
-} // namespace gll
+} // namespace gll::pyramid_bloom

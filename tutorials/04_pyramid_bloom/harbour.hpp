@@ -3,7 +3,7 @@
 
 #include "gl/mesh.hpp"
 
-namespace gll {
+namespace gll::pyramid_bloom {
 
 // A mesh and how many instances it has. World units are metres; the water is at y = 0, and what it mirrors is
 // drawn below.
@@ -25,4 +25,4 @@ Instances makeLamps();
 // A square of [0, 1] (location 0).
 Mesh makeSquare();
 
-} // namespace gll
+} // namespace gll::pyramid_bloom

@@ -14,6 +14,7 @@
 
 namespace {
 using namespace gll;
+using namespace gll::pyramid_bloom;
 
 struct PyramidOptions {
     Settings all;
@@ -33,7 +34,7 @@ struct PyramidOptions {
     Choice format = all.choice("format", "rgba16f", {"rgba16f", "r11f_g11f_b10f", "rgba8"}, "of the levels");
     Choice view = all.choice("view", "picture", {"picture", "pyramid", "sums"},
                              "the picture, or every level on the way down or after the way up");
-    ToneMapOptions display{all, "aces_hill", "srgb"};
+    hdr::ToneMapOptions display{all, "aces_hill", "srgb"};
     OrbitSettings orbit{all};
     // end excerpt
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace gll {
+namespace gll::pyramid_bloom {
 namespace {
 
 // A Gaussian over nine taps; with both sides the weights add up to 1.
@@ -206,4 +206,4 @@ void PyramidBloom::composite(Frame& frame, const Texture& source, float strength
                 .uniforms = {{"strength", strength}}});
 }
 
-} // namespace gll
+} // namespace gll::pyramid_bloom

@@ -6,7 +6,7 @@
 #include "rung/frame.hpp"
 #include "rung/settings.hpp"
 
-namespace gll {
+namespace gll::pyramid_bloom {
 
 inline constexpr int max_bloom_levels = 8;
 
@@ -42,7 +42,7 @@ struct PyramidFilters {
     Choice up_filter;
     Toggle finest;
     Toggle normalise;
-    Guard guard;
+    hdr::Guard guard;
 };
 
 // excerpt: parameters
@@ -91,7 +91,7 @@ class PyramidBloom {
     static float share(const PyramidBloomParameters& parameters);
 
     // Pass "composite": source + strength * bloom into a target of the source's size, alpha as in the source.
-    // guard: the defines of a Guard.
+    // guard: the defines of an hdr::Guard.
     void composite(Frame& frame, const Texture& source, float strength, const Framebuffer& target,
                    const Defines& guard = {}) const;
 
@@ -112,4 +112,4 @@ class PyramidBloom {
         blurred_; // one direction blurred, of the levels' sizes; empty while there is no blur
 };
 
-} // namespace gll
+} // namespace gll::pyramid_bloom

@@ -14,19 +14,23 @@
 
 namespace {
 using namespace gll;
+using namespace gll::hdr_bloom;
+using pyramid_bloom::PyramidBloom;
+using pyramid_bloom::PyramidBloomParameters;
+using pyramid_bloom::PyramidFilters;
 
 struct HdrBloomOptions {
     Settings all;
     // excerpt: settings
     Toggle bloom = all.toggle("bloom", true, "whether bright light spills over its edges");
-    Integer levels =
-        all.integer("levels", 5, 1, max_bloom_levels, "bloom levels, each half the size of the one before");
+    Integer levels = all.integer("levels", 5, 1, pyramid_bloom::max_bloom_levels,
+                                 "bloom levels, each half the size of the one before");
     Number threshold = all.number("threshold", 1.0, 0, 1000, "luminance from which a pixel blooms");
     Number knee =
         all.number("knee", 0.6, 0, 100, "half the width of the soft step at the threshold, luminance");
     Number intensity = all.number("intensity", 0.7, 0, 100, "how much bloom is added to the scene");
     PyramidFilters filters{all, "average", "5tap"};
-    ToneMapOptions display{all, "aces_narkowicz", "gamma22"};
+    hdr::ToneMapOptions display{all, "aces_narkowicz", "gamma22"};
     Integer instances = all.integer("instances", 1000, 1, 1'000'000, "number of cubes");
     Number boost = all.number("boost", 8, 0, 1000, "how many times brighter a glowing cube is");
     Integer glow_every =

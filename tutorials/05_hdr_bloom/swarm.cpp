@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-namespace gll {
+namespace gll::hdr_bloom {
 namespace {
 
 constexpr float pi = 3.14159265358979F;
@@ -81,4 +81,4 @@ Mesh makeSwarm(int count, int glow_every, int glow_first) {
                                          {5, 1, offsetof(Instance, glows)}}});
 }
 
-} // namespace gll
+} // namespace gll::hdr_bloom

@@ -9,6 +9,8 @@
 namespace gll::test {
 namespace {
 
+using namespace pyramid_bloom;
+
 class PyramidBloomTest : public GlTest {
   protected:
     // A grey disc of that brightness in the middle of black, alpha one half where the format has it.
