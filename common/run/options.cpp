@@ -299,7 +299,7 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
     app.add_option("--frame", frame, "which frame, at N/60 s; the first is 1, the default 60")
         ->type_name("N");
     app.add_option("--frames", frames, "several frames, every STEP-th")->type_name("A..B[:STEP]");
-    app.add_option("--preset", options.request.preset, "a named set of settings: seed (the default), ...")
+    app.add_option("--preset", options.request.preset, "a named set of settings: original (the default), ...")
         ->type_name("NAME");
     app.add_option("--set", options.request.sets, "one setting; may be repeated")
         ->type_name("KEY=VALUE")

@@ -25,7 +25,7 @@ struct FrameRequest {
     int first_frame = 60;
     int last_frame = 60;
     int step = 1;
-    std::string preset = "seed";
+    std::string preset = "original";
     std::vector<std::string> sets; // KEY=VALUE, applied over the preset in order
     std::filesystem::path out;     // empty: nothing is written; with a %d where there are several frames
     std::string target;            // empty: the presented frame; a target's name, or a pass's

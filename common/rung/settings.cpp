@@ -173,6 +173,7 @@ void Settings::set(std::string_view key_equals_value) {
 }
 
 void Settings::applyPreset(std::string_view name) {
+    if (name == "seed") name = "original"; // its former name, in scripts and batches that people have
     std::vector<std::string> names;
     for (const Preset& preset : presets_) {
         names.push_back(preset.name);

@@ -91,7 +91,8 @@ class Settings {
     // the other rungs one each. Throws UsageError where one is not declared.
     void shared(std::string_view owner, std::initializer_list<std::string_view> names);
 
-    // A named set of values over the defaults. "seed", the defaults themselves, always exists.
+    // A named set of values over the defaults. "original", the defaults themselves, always exists; it was
+    // once called "seed", which applyPreset() still takes.
     struct Preset {
         std::string name;
         std::string help;
@@ -127,7 +128,7 @@ class Settings {
     Setting& add(Setting setting);
 
     std::deque<Setting> settings_; // a deque, so that handles stay valid while more are declared
-    std::vector<Preset> presets_{{"seed", "the original tutorial's numbers", {}}};
+    std::vector<Preset> presets_{{"original", "the original tutorial's numbers", {}}};
     std::vector<Dial> dials_;
 };
 

@@ -27,7 +27,7 @@ struct Case {
     std::string rung;
     std::string budget;
     Set set; // the look that is asked for
-    std::string preset = "seed";
+    std::string preset = "original";
     std::string image = {}; // in place of the scene
 
     std::string name() const {
@@ -223,7 +223,7 @@ void findsTheOptimum(const Case& one, glm::ivec2 size) {
 const std::vector<Case> optima = {
     {"01_hdr", "flip=0.1", {}},
     {"02_auto_exposure", "ev=0.3", {{"overlay", "off"}}},
-    {"03_gaussian_bloom", "flip=0.05", {{"sigma", "4"}}, "seed", "swarm"},
+    {"03_gaussian_bloom", "flip=0.05", {{"sigma", "4"}}, "original", "swarm"},
     {"04_pyramid_bloom", "flip=0.03", {{"levels", "2"}}, "recommended", "swarm"},
     {"05_hdr_bloom", "flip=0.06", {{"levels", "3"}, {"intensity", "0.1"}}, "recommended", "swarm"},
 };

@@ -54,7 +54,7 @@ const truth::GaussianMixture wanted_glow{{{0.25, 1}, {0.25, 2}, {0.25, 4}, {0.25
 struct Method : BloomMethod {
     std::string dial = {};
     std::string mark = {};
-    double width_px = 0; // one of widths_px, or a seed's own
+    double width_px = 0; // one of widths_px, or an original's own
     int period_px = 32;  // the response repeats when the light moves by so much
     int levels = 0;      // of a pyramid
 
@@ -85,17 +85,17 @@ std::vector<Method> methods() {
         list.push_back(method);
     };
     for (const PyramidPair& pair : pyramid_pairs) {
-        const std::string seed = pair.seed;
+        const std::string original = pair.original;
         // With a Gaussian on every level it takes a level less, and radii that make up for it were measured;
         // a box is narrow for its levels.
         const int levels = pair.blurred ? 4 : std::string(pair.down) == "box" ? 6 : 5;
         const bool splines = std::string(pair.down) == "spline";
-        pyramid(pair, true, levels, compared_width_px, "0.86", pair.blurred ? "" : seed);
+        pyramid(pair, true, levels, compared_width_px, "0.86", pair.blurred ? "" : original);
         pyramid(pair, false, levels, compared_width_px, "0.64", splines ? recommended : "");
         if (splines)
             for (int i = 1; i >= 0; --i)
                 pyramid(pair, false, 3 + i, widths_px[i], "", "");
-        if (pair.blurred) pyramid(pair, true, 5, 25, "0.5", seed + " (25 px)");
+        if (pair.blurred) pyramid(pair, true, 5, 25, "0.5", original + " (25 px)");
     }
 
     const auto gaussian = [&](const Blur& blur, const std::string& setting, const std::string& value,
@@ -114,8 +114,10 @@ std::vector<Method> methods() {
         if (setting == "mipmap") continue; // no blur of a width: it is what 03 shows to break
         for (const double width_px : widths_px)
             gaussian(blur, "sigma", shortNumber(width_px), width_px);
-        if (setting == "ping_pong_9tap") gaussian(blur, "iterations", "5", 3.8, "seed 003 (3.8 px)");
-        if (setting == "half_resolution_5tap") gaussian(blur, "iterations", "5", 11, "seed 004 (11 px)");
+        if (setting == "ping_pong_9tap")
+            gaussian(blur, "iterations", "5", 3.8, "the original of 03 (3.8 px)");
+        if (setting == "half_resolution_5tap")
+            gaussian(blur, "iterations", "5", 11, "the second original of 03 (11 px)");
         if (setting == "wide_gaussian") gaussian(blur, "sigma", "3.78", 3.8, "recommended in 03");
     }
     return list;

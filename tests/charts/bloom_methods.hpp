@@ -48,16 +48,16 @@ struct PyramidPair {
     const char* name;
     const char* down;
     const char* up;
-    bool blurred = false;  // a Gaussian on every level
-    const char* seed = ""; // whose filters these are
+    bool blurred = false;      // a Gaussian on every level
+    const char* original = ""; // whose filters these are
 };
 
 // splines first
 inline constexpr PyramidPair pyramid_pairs[] = {
     {"splines", "spline", "spline"},
     {"13 taps, tent", "13tap", "tent"},
-    {"13 taps, Gaussian, tent", "13tap", "tent", true, "seed 001"},
-    {"5 taps, tent", "5tap", "tent", false, "seed 000"},
+    {"13 taps, Gaussian, tent", "13tap", "tent", true, "the original of 04"},
+    {"5 taps, tent", "5tap", "tent", false, "the original of 05"},
     {"[1 3 3 1], tent", "4tap", "tent"},
     {"5 taps, dual filter", "5tap", "dual"},
     {"box, bilinear", "box", "bilinear"}};
@@ -77,13 +77,14 @@ inline BloomMethod pyramidMethod(const PyramidPair& pair, bool finest) {
 struct Blur {
     const char* name;
     const char* setting;
-    const char* seed = "";
+    const char* original = "";
 };
 
-inline constexpr Blur gaussian_blurs[] = {{"ping-pong, 9 taps", "ping_pong_9tap", "seed 003"},
-                                          {"ping-pong, 5 fetches", "ping_pong_5fetch"},
-                                          {"half resolution, 5 taps", "half_resolution_5tap", "seed 004"},
-                                          {"mipmap", "mipmap"},
-                                          {"one wide Gaussian", "wide_gaussian"}};
+inline constexpr Blur gaussian_blurs[] = {
+    {"ping-pong, 9 taps", "ping_pong_9tap", "the original of 03"},
+    {"ping-pong, 5 fetches", "ping_pong_5fetch"},
+    {"half resolution, 5 taps", "half_resolution_5tap", "the second original of 03"},
+    {"mipmap", "mipmap"},
+    {"one wide Gaussian", "wide_gaussian"}};
 
 } // namespace gll::charts

@@ -14,7 +14,7 @@ struct Point {
     std::string dial;      // "levels 5"; empty where the method has none
     double cost = 0;       // x
     double error = 0;      // y
-    std::string mark = {}; // "seed 001", "recommended": named in the chart; else empty
+    std::string mark = {}; // "the original of 04", "recommended": named in the chart; else empty
     bool competes = true;  // false: of the method's curve, but the answer to another question than the others
     bool hollow = false;   // drawn as a hollow shape, which Axes::hollow explains
 };

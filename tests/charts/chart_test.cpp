@@ -11,10 +11,13 @@
 namespace gll::charts {
 namespace {
 
-const std::vector<Point> points = {{"cheap", "", 1, 8},          {"good", "levels 3", 2, 4},
-                                   {"good", "levels 4", 4, 1},   {"poor", "", 3, 6}, // as good is, at 2
-                                   {"same", "", 4, 1, "seed 9"}, // as good is: neither beats the other
-                                   {"perfect", "", 9, 0}};
+const std::vector<Point> points = {
+    {"cheap", "", 1, 8},
+    {"good", "levels 3", 2, 4},
+    {"good", "levels 4", 4, 1},
+    {"poor", "", 3, 6},                      // as good is, at 2
+    {"same", "", 4, 1, "the original of 9"}, // as good is: neither beats the other
+    {"perfect", "", 9, 0}};
 
 std::string drawn(const test::TemporaryFolder& folder, const Axes& axes, const std::vector<Point>& list) {
     const std::filesystem::path file = folder / "chart.svg";
@@ -55,7 +58,7 @@ TEST(WorstFront, judgesAMethodByTheWorstPointOfItsDial) {
 TEST(Csv, comesBackAsItWasWritten) {
     const test::TemporaryFolder folder;
     const Table table{{"method", "cost, cu", "note"},
-                      {{"5 taps, tent", "9.9", ""}, {"box", "0.1", "seed 000"}}};
+                      {{"5 taps, tent", "9.9", ""}, {"box", "0.1", "the original of 05"}}};
     writeCsv(folder / "t.csv", table);
     const Table back = readCsv(folder / "t.csv");
     EXPECT_EQ(back.columns, table.columns);
@@ -105,7 +108,7 @@ TEST(Drawing, dependsOnThePointsAlone) {
 TEST(Drawing, namesAxesMethodsMarksAndTheEndsOfADial) {
     const test::TemporaryFolder folder;
     const std::string svg = drawn(folder, {"a title", "cost, cu", "error, %"}, points);
-    for (const char* text : {"a title", "cost, cu", "error, %", "seed 9", "levels 3", "levels 4"})
+    for (const char* text : {"a title", "cost, cu", "error, %", "the original of 9", "levels 3", "levels 4"})
         EXPECT_EQ(count(svg, ">" + std::string(text) + "<"), 1) << text;
     for (const Point& point : points)
         EXPECT_GE(count(svg, ">" + point.method + "<"), 1) << point.method;

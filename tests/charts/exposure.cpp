@@ -172,7 +172,7 @@ std::vector<Reduction> reductions() {
         return [white_point](const Stops& stops) { return mipmapR16(stops, white_point); };
     };
     return {{"mipmap_r16, white point 0.22",
-             "seed 004",
+             "the original of 02",
              {{"reduction", "mipmap_r16"}, {"white_point", "0.22"}},
              white(0.22),
              0.005},

@@ -28,7 +28,7 @@ struct StorageFormat {
 const std::vector<StorageFormat> formats = {{"rgba8", 4},
                                             {"rgb10_a2", 4},
                                             {"r11f_g11f_b10f", 4},
-                                            {"rgba16f", 8, "seed 003, recommended"},
+                                            {"rgba16f", 8, "the original of 01, recommended"},
                                             {"rgba32f", 16}};
 
 // From linear light to what eight bits hold, 0 to 255.

@@ -32,7 +32,7 @@ struct Curve {
 };
 
 std::vector<Curve> curves() {
-    std::vector<Curve> list = {{"clamp"}, {"reinhard", 4, "", "seed 003"}, {"reinhard_luminance"}};
+    std::vector<Curve> list = {{"clamp"}, {"reinhard", 4, "", "the original of 01"}, {"reinhard_luminance"}};
     for (const int white_point : {1, 2, 4, 8, 16})
         list.push_back({"reinhard_extended", double(white_point), "white " + std::to_string(white_point)});
     for (const char* name : {"exposure", "aces_narkowicz", "aces_hill"})

@@ -22,7 +22,7 @@ std::map<std::string, std::set<std::string>> shownValues(const nlohmann::json& l
     for (const GoldenCase& golden : cases) {
         std::map<std::string, std::string> values;
         for (const auto& preset : listed.at("presets"))
-            if (preset.at("name") == golden.request.value("preset", "seed"))
+            if (preset.at("name") == golden.request.value("preset", "original"))
                 for (const auto& value : preset.at("values"))
                     values[value.at(0)] = value.at(1);
         if (golden.request.contains("set"))

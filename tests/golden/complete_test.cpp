@@ -17,7 +17,7 @@ const auto listed = nlohmann::json::parse(R"({
         {"name": "bloom", "kind": "toggle", "default": true},
         {"name": "exposure_ev", "kind": "number", "default": 0.0, "min": -16.0, "max": 16.0}
     ],
-    "presets": [{"name": "seed", "values": []}, {"name": "recommended", "values": [["blur", "dual"]]}]
+    "presets": [{"name": "original", "values": []}, {"name": "recommended", "values": [["blur", "dual"]]}]
 })");
 
 GoldenCase caseOf(const std::string& request) {
@@ -51,13 +51,13 @@ TEST(CompleteGoldens, takeAnExcuseAndRefuseOneThatIsNotNeeded) {
 
 TEST(GoldenCases, nameTheirFilesFromTheirFolder) {
     const GoldenCase golden = caseOf(R"({"image": "../a.exr", "mesh": "b.gltf", "floor": "c.mtl",
-                                         "environment": "d.hdr", "preset": "seed"})");
+                                         "environment": "d.hdr", "preset": "original"})");
     const auto line = batchLine(golden, "goldens");
     EXPECT_EQ(line.at("image"), "goldens/../a.exr");
     EXPECT_EQ(line.at("mesh"), "goldens/b.gltf");
     EXPECT_EQ(line.at("floor"), "goldens/c.mtl");
     EXPECT_EQ(line.at("environment"), "goldens/d.hdr");
-    EXPECT_EQ(line.at("preset"), "seed");
+    EXPECT_EQ(line.at("preset"), "original");
 }
 
 TEST(GoldenList, missesACaseThatIsGoneAndOneThatItDoesNotKnow) {

@@ -38,7 +38,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"unknownContext", {"--context", "vulkan"}, 2, {"--context", "vulkan"}},
         Refusal{"windowAndHeadless", {"--headless", "--context", "window"}, 2, {"--headless"}},
         Refusal{"windowAndOut", {"--context", "window", "--out", "a.png"}, 2, {"--context window"}},
-        Refusal{"unknownPreset", {"--headless", "--preset", "best"}, 2, {"best", "seed"}},
+        Refusal{"unknownPreset", {"--headless", "--preset", "best"}, 2, {"best", "original"}},
         Refusal{
             "unknownTarget", {"--target", "hdd", "--size", "8x8"}, 2, {"hdd", "bloom0", "did you mean hdr?"}},
         Refusal{"unknownPassOfAnInjection",

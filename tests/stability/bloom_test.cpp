@@ -44,9 +44,9 @@ const std::size_t recommended_pyramid = 0; // of the list above
 std::vector<Method> gaussians() {
     std::vector<Method> list;
     for (const charts::Blur& blur : charts::gaussian_blurs) {
-        const std::string seed = blur.seed;
+        const std::string original = blur.original;
         list.push_back({"03_gaussian_bloom",
-                        blur.name + (seed.empty() ? "" : " (" + seed + ")"),
+                        blur.name + (original.empty() ? "" : " (" + original + ")"),
                         {{"blur", blur.setting}}});
     }
     return list;
@@ -74,10 +74,10 @@ std::vector<Method> allMethods() {
 }
 
 // What the guards are tried on: the largest level's own light is another way through the blending.
-std::vector<Method> allMethodsAndTheSeeds() {
+std::vector<Method> allMethodsAndTheOriginals() {
     std::vector<Method> list = allMethods();
-    list.push_back({"04_pyramid_bloom", "seed 001", {}});
-    list.push_back({"05_hdr_bloom", "seed 000", {}});
+    list.push_back({"04_pyramid_bloom", "the original of 04", {}});
+    list.push_back({"05_hdr_bloom", "the original of 05", {}});
     return list;
 }
 
@@ -481,7 +481,7 @@ TEST_F(BloomStability, withGuardsNoBadValueInAnyPassReachesThePicture) {
                              .ask(method.set + Set{{"threshold", "0"}}, frame_size,
                                   lastTarget(method, frame_size), where)});
     };
-    for (const Method& method : allMethodsAndTheSeeds())
+    for (const Method& method : allMethodsAndTheOriginals())
         for (const Place& place : placesIn(method, size))
             for (const char* value : {"nan", "inf", "-inf"})
                 ask(method, size, place, place.size / 2, value);
@@ -504,7 +504,7 @@ TEST_F(BloomStability, guardsChangeNoFrameThatIsAsItShouldBe) {
     Runs runs(nullptr);
     const glm::ivec2 size(96, 72);
     std::vector<std::pair<std::size_t, std::size_t>> asked;
-    const std::vector<Method> list = allMethodsAndTheSeeds();
+    const std::vector<Method> list = allMethodsAndTheOriginals();
     for (const Method& method : list) {
         Frames& all = runs.of(method.rung);
         const std::size_t on = all.ask(method.set, size, lastTarget(method, size));
@@ -522,7 +522,7 @@ TEST_F(BloomStability, guardsChangeNoFrameThatIsAsItShouldBe) {
 // an infinite pixel counts as none, so that a division by zero does not outshine everything.
 TEST_F(BloomStability, lightOfAnyStrengthGivesAFiniteBloomThatGrowsWithIt) {
     const glm::ivec2 size(4, 4);
-    const std::vector<Method> list = allMethodsAndTheSeeds();
+    const std::vector<Method> list = allMethodsAndTheOriginals();
     std::vector<double> lights;
     for (int decade = -7; decade <= 38; ++decade)
         lights.push_back(std::pow(10, decade));

@@ -29,7 +29,7 @@ class ToneStability : public testing::Test {
     static void tell(const std::string& tone_map, const std::string& failure, const std::string& number) {
         std::printf("%s: %s %s\n", tone_map.c_str(), failure.c_str(), number.c_str());
         table.set(tone_map + (tone_map == recommended  ? " (recommended)"
-                              : tone_map == "reinhard" ? " (seed 003)"
+                              : tone_map == "reinhard" ? " (the original of 01)"
                                                        : ""),
                   failure, number);
     }

@@ -411,7 +411,7 @@ TEST_F(GaussianBloomFrames, ofFiveFetchesAreThoseOfNineTapsButForRounding) {
     }
 }
 
-TEST_F(GaussianBloomFrames, withTheSeedsOffsetsAsPrintedAreTwelvePercentNarrow) {
+TEST_F(GaussianBloomFrames, withTheOriginalsOffsetsAsPrintedAreTwelvePercentNarrow) {
     const Plane bright = read("bright.exr");
     const double own_sigma = 2 * 2.5 * std::sqrt(5.0);
     const Difference corrected =

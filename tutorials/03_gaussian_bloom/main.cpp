@@ -54,7 +54,7 @@ struct GaussianBloomOptions {
         all.dial({"blur", {"wide_gaussian", "ping_pong_9tap", "ping_pong_5fetch", "half_resolution_5tap"}});
         all.dial({"bright_format", {"rgba16f", "r11f_g11f_b10f"}});
         all.preset({"recommended",
-                    "one Gaussian with computed weights, as wide as the seed's ten passes",
+                    "one Gaussian with computed weights, as wide as the original's ten passes",
                     {{"blur", "wide_gaussian"}, {"sigma", "3.78"}}});
     }
 };

@@ -58,7 +58,7 @@ class PyramidBloomTest : public GlTest {
     ShaderLibrary shaders{Resources().shaderRoots()};
     Settings settings;
     PyramidFilters filters{settings, "none", "13tap"};
-    PyramidBloomParameters seed{.filters = filters};
+    PyramidBloomParameters original{.filters = filters};
 };
 
 TEST_F(PyramidBloomTest, addsAGlowToWhatEightBitsHoldAndKeepsTheirAlpha) {
@@ -68,8 +68,8 @@ TEST_F(PyramidBloomTest, addsAGlowToWhatEightBitsHoldAndKeepsTheirAlpha) {
         for (const Format level_format : {Format::rgba16f, Format::rgba8, Format::r11f_g11f_b10f}) {
             const Framebuffer target = targetOf(size, target_format);
             PyramidBloom bloom(shaders);
-            seed.format = level_format;
-            render(bloom, source, target, seed);
+            original.format = level_format;
+            render(bloom, source, target, original);
             const glm::vec4 middle = pixelOf(target.color(), 32, 24);
             const glm::vec4 beside = pixelOf(target.color(), 32, 24 + 14);
             const glm::vec4 corner = pixelOf(target.color(), 0, 0);
@@ -91,7 +91,7 @@ TEST_F(PyramidBloomTest, takesEveryFormatThatHoldsColorAndFillsEveryOneThatCanBe
           Format::rgba16f, Format::rgba32f}) {
         const Texture source = disc(size, source_format, 0.9F);
         const Framebuffer in_floats = targetOf(size, Format::rgba32f);
-        render(bloom, source, in_floats, seed);
+        render(bloom, source, in_floats, original);
         const float glow = pixelOf(in_floats.color(), 32, 24 + 14).r;
         EXPECT_GT(glow, 0.05F) << formatInfo(source_format).name;
         for (const Format target_format :
@@ -99,7 +99,7 @@ TEST_F(PyramidBloomTest, takesEveryFormatThatHoldsColorAndFillsEveryOneThatCanBe
               Format::r16f, Format::rg16f, Format::r11f_g11f_b10f, Format::rgba16f, Format::r32f,
               Format::rg32f}) {
             const Framebuffer target = targetOf(size, target_format);
-            render(bloom, source, target, seed);
+            render(bloom, source, target, original);
             // The coarsest step here is that of eleven bits, 1/64 of the value, and half a code of eight.
             EXPECT_NEAR(pixelOf(target.color(), 32, 24 + 14).r, glow, glow / 64 + 0.5F / 255)
                 << formatInfo(source_format).name << " to " << formatInfo(target_format).name;
@@ -114,8 +114,8 @@ TEST_F(PyramidBloomTest, theEightBitPictureIsTheFloatOneRounded) {
     const Framebuffer in_bits = targetOf(size);
     const Framebuffer in_floats = targetOf(size, Format::rgba32f);
     PyramidBloom bloom(shaders);
-    render(bloom, source, in_bits, seed);
-    render(bloom, source, in_floats, seed);
+    render(bloom, source, in_bits, original);
+    render(bloom, source, in_floats, original);
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x)
             ASSERT_NEAR(pixelOf(in_bits.color(), x, y).g, std::min(pixelOf(in_floats.color(), x, y).g, 1.0F),
@@ -125,11 +125,11 @@ TEST_F(PyramidBloomTest, theEightBitPictureIsTheFloatOneRounded) {
 
 TEST_F(PyramidBloomTest, drawsAtEverySizeDownToOnePixel) {
     PyramidBloom bloom(shaders);
-    seed.levels = max_bloom_levels;
+    original.levels = max_bloom_levels;
     for (const glm::ivec2 size : {glm::ivec2(1, 1), {1, 7}, {9, 1}, {2, 3}, {31, 17}, {500, 2}, {255, 257}}) {
         const Texture source = disc(size);
         const Framebuffer target = targetOf(size, Format::rgba32f);
-        render(bloom, source, target, seed);
+        render(bloom, source, target, original);
         const glm::vec4 middle = pixelOf(target.color(), size.x / 2, size.y / 2);
         EXPECT_TRUE(std::isfinite(middle.r)) << size.x << "x" << size.y;
         EXPECT_GE(middle.r, 0) << size.x << "x" << size.y;
@@ -141,7 +141,7 @@ TEST_F(PyramidBloomTest, drawsAtEverySizeDownToOnePixel) {
     for (const glm::ivec2 size : {glm::ivec2(1, 1), {1, 7}, {2, 3}, {31, 17}, {500, 2}, {255, 257}}) {
         const Texture source = disc(size);
         const Framebuffer target = targetOf(size, Format::rgba32f);
-        render(bloom, source, target, seed);
+        render(bloom, source, target, original);
         EXPECT_TRUE(std::isfinite(pixelOf(target.color(), 0, 0).r)) << size.x << "x" << size.y;
         EXPECT_EQ(bloom.level(0).size(), (size + 1) / 2);
         context->debugLog().check("a size");
@@ -153,23 +153,23 @@ TEST_F(PyramidBloomTest, allocatesOnlyWhereSizeLevelsFormatOrBlurChange) {
     const Texture source = disc({64, 48});
     const Framebuffer target = targetOf({64, 48});
     const auto drawn = [&] {
-        render(bloom, source, target, seed);
+        render(bloom, source, target, original);
         return bloom.level(1).id();
     };
     const GLuint first = drawn();
-    seed.threshold = 0.1F;
-    seed.knee = 0;
-    seed.blur_radius = 2;
+    original.threshold = 0.1F;
+    original.knee = 0;
+    original.blur_radius = 2;
     EXPECT_EQ(drawn(), first);
-    seed.levels = 3;
+    original.levels = 3;
     EXPECT_EQ(drawn(), first) << "the levels that stay are kept";
     EXPECT_THROW(bloom.level(3), std::out_of_range);
-    seed.levels = 5;
+    original.levels = 5;
     EXPECT_EQ(drawn(), first);
-    seed.format = Format::rgba8;
+    original.format = Format::rgba8;
     drawn();
     EXPECT_EQ(bloom.level(1).format(), Format::rgba8);
-    seed.blur_radius = 0;
+    original.blur_radius = 0;
     const GLuint unblurred = drawn();
     EXPECT_EQ(drawn(), unblurred);
 }
@@ -179,7 +179,7 @@ TEST_F(PyramidBloomTest, drawsTheSameFrameAfterTwoHundredResizesAndLeavesNothing
     const auto at = [&](glm::ivec2 size) {
         const Texture source = disc(size);
         const Framebuffer target = targetOf(size);
-        render(bloom, source, target, seed);
+        render(bloom, source, target, original);
         return readTexture(target.color()).pixels;
     };
     const auto storm = [&] {
@@ -202,12 +202,12 @@ TEST_F(PyramidBloomTest, movesAndTakesItsTexturesWithIt) {
     GLuint level = 0;
     {
         PyramidBloom first(shaders);
-        render(first, source, target, seed);
+        render(first, source, target, original);
         level = first.level(0).id();
         PyramidBloom second = std::move(first);
         EXPECT_EQ(second.level(0).id(), level);
-        render(second, source, target, seed);
-        EXPECT_EQ(livingTextures(), living + 2 * seed.levels);
+        render(second, source, target, original);
+        EXPECT_EQ(livingTextures(), living + 2 * original.levels);
     }
     EXPECT_FALSE(glIsTexture(level));
     EXPECT_EQ(livingTextures(), living);
@@ -218,8 +218,8 @@ TEST_F(PyramidBloomTest, refusesALevelCountThatItCannotHave) {
     const Texture source = disc({8, 8});
     const Framebuffer target = targetOf({8, 8});
     for (const int levels : {0, -1, 9}) {
-        seed.levels = levels;
-        EXPECT_CONTAINS(messageOf<std::invalid_argument>([&] { render(bloom, source, target, seed); }),
+        original.levels = levels;
+        EXPECT_CONTAINS(messageOf<std::invalid_argument>([&] { render(bloom, source, target, original); }),
                         "levels; 1 to 8 are possible");
     }
 }

@@ -39,7 +39,7 @@ TEST_F(OptionsTest, withoutArgumentsAWindowBeginsAtTheFirstFrame) {
     EXPECT_EQ(options.context, ContextKind::window);
     EXPECT_EQ(options.request.size, glm::ivec2(640, 480));
     EXPECT_EQ(options.request.first_frame, 1);
-    EXPECT_EQ(options.request.preset, "seed");
+    EXPECT_EQ(options.request.preset, "original");
     EXPECT_TRUE(options.request.out.empty());
     EXPECT_FALSE(options.is_batch);
 }
@@ -167,6 +167,8 @@ TEST_F(OptionsTest, settingsAndPresetsAreCheckedBeforeAnythingIsRendered) {
     EXPECT_CONTAINS(errorOf({"--set", "knee=nan"}), "is not a number from 0 to 100");
     EXPECT_CONTAINS(errorOf({"--set", "knee"}), "write KEY=VALUE");
     EXPECT_CONTAINS(errorOf({"--preset", "none"}), "unknown preset \"none\"");
+    EXPECT_EQ(errorOf({"--preset", "seed"}), "") << "the original's former name";
+    EXPECT_EQ(errorOf({"--batch", batch(R"({"out": "a.png", "preset": "seed"})")}), "");
     EXPECT_EQ(errorOf({"--set", "knee=1", "--set", "bloom=off"}), "");
     EXPECT_EQ(settings.commandLine(), "") << "checking must not set";
     EXPECT_EQ(parse({"--set", "knee=1", "--set", "bloom=off"})->request.sets,
@@ -191,7 +193,7 @@ TEST_F(OptionsTest, whatIsMisspeltIsAnsweredWithTheNearestName) {
     EXPECT_CONTAINS(errorOf({"--blom", "off"}), "; did you mean --set bloom=VALUE?");
     EXPECT_CONTAINS(errorOf({"bloom=off"}), "; did you mean --set bloom=VALUE?");
     EXPECT_CONTAINS(errorOf({"--set", "blom=off"}), "; did you mean bloom?");
-    EXPECT_CONTAINS(errorOf({"--preset", "sede"}), "; did you mean seed?");
+    EXPECT_CONTAINS(errorOf({"--preset", "orignal"}), "; did you mean original?");
     EXPECT_CONTAINS(errorOf({"--context", "osmesaa"}), "; did you mean osmesa?");
     EXPECT_CONTAINS(errorOf({"--counter", "callgrid"}), "; did you mean callgrind?");
     EXPECT_CONTAINS(errorOf({"--budget", "filp=0.1"}), "; did you mean flip?");

@@ -140,6 +140,12 @@ TEST_F(SettingsTest, aPresetResetsWhatItDoesNotName) {
     EXPECT_FLOAT_EQ(knee, 2);
     EXPECT_FALSE(bloom);
     EXPECT_EQ(int(levels), 5);
+    all.applyPreset("original");
+    EXPECT_EQ(all.commandLine(), "");
+}
+
+TEST_F(SettingsTest, theOriginalIsStillFoundUnderItsFormerName) {
+    all.set("levels=2");
     all.applyPreset("seed");
     EXPECT_EQ(all.commandLine(), "");
 }
@@ -152,8 +158,8 @@ TEST_F(SettingsTest, aPresetThatDoesNotFitIsAnErrorWhenDeclared) {
 TEST_F(SettingsTest, anUnknownPresetNamesWhatThereIs) {
     all.preset({"soft", "help", {}});
     all.set("levels=2");
-    EXPECT_EQ(messageOf<UsageError>([&] { all.applyPreset("sedd"); }),
-              "unknown preset \"sedd\"; there is seed, soft; did you mean seed?");
+    EXPECT_EQ(messageOf<UsageError>([&] { all.applyPreset("orignal"); }),
+              "unknown preset \"orignal\"; there is original, soft; did you mean original?");
     EXPECT_EQ(int(levels), 2);
 }
 
