@@ -45,6 +45,11 @@ struct RungResources {
     const Resources& files;
     RungFiles given;
     Warnings& warnings; // what the given files hold and the rung does not draw; valid as long as the rung
+
+    // The file that was given, or the rung's own of that name. Throws as Resources::find().
+    std::filesystem::path file(std::filesystem::path RungFiles::*which, const char* own) const {
+        return (given.*which).empty() ? files.find(own) : given.*which;
+    }
 };
 
 // A number that a frame arrived at and that its picture only hints at, such as a metered luminance.

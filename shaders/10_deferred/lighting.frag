@@ -1,8 +1,8 @@
 #version 330 core
 // Lights every pixel once, from what the G-buffer, the shadow map and the occlusion say of it.
-#include "10_deferred/read_gbuffer.glsl"
+#include "06_gbuffer/read_gbuffer.glsl"
 #if SUN
-#include "10_deferred/shadow.glsl"
+#include "07_shadow_map/shadow.glsl"
 #endif
 #if ENVIRONMENT
 #include "10_deferred/environment.glsl"
@@ -47,7 +47,7 @@ float blinnLight(Surface surface, vec3 to_light, vec3 to_camera) {
 
 #if SUN
 vec3 sunLight(Surface surface, vec3 to_camera) {
-    return sun_color * (blinnLight(surface, to_sun, to_camera) * sunVisible(surface, to_sun));
+    return sun_color * (blinnLight(surface, to_sun, to_camera) * sunVisible(surface.world_position, surface.world_normal, to_sun));
 }
 #endif
 

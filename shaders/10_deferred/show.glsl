@@ -1,5 +1,5 @@
 // What a buffer looks like as a picture: values for the display, not light.
-#include "10_deferred/read_gbuffer.glsl"
+#include "06_gbuffer/read_gbuffer.glsl"
 
 #if SSAO != SSAO_OFF
 uniform sampler2D ssao_map;

@@ -1,6 +1,6 @@
 #version 330 core
 // How much of the ambient light reaches each pixel, judged from what the G-buffer holds round it. 1: all of it.
-#include "10_deferred/read_view.glsl"
+#include "06_gbuffer/read_view.glsl"
 #include "10_deferred/noise.glsl"
 
 uniform int pixel_step;         // 2: every second pixel in either direction

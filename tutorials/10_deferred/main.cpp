@@ -1,10 +1,12 @@
 // 10_deferred: a cat statue on a brick floor, its materials written once into a G-buffer and lit afterwards:
 // a shadow-casting sun, three coloured lights going round, an environment, and ambient occlusion.
 #include "01_hdr/tone_map.hpp"
+#include "06_gbuffer/gbuffer.hpp"
+#include "06_gbuffer/scene.hpp"
+#include "07_shadow_map/shadow_map.hpp"
 #include "environment.hpp"
 #include "run/run.hpp"
 #include "rung/camera.hpp"
-#include "scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,20 +19,9 @@ using namespace gll;
 struct DeferredOptions {
     Settings all;
     // excerpt: settings
-    Choice gbuffer = all.choice("gbuffer", "seed", {"seed", "octahedral", "depth", "compact"},
-                                "what is stored: 24 bytes; octahedral normals, 20; position from depth, 16; "
-                                "both, 12");
-    Choice albedo = all.choice("albedo", "linear", {"linear", "srgb"},
-                               "how albedo is stored in 8 bits; linear has bands in the dark");
-    Choice texture_filter =
-        all.choice("texture_filter", "bilinear", {"bilinear", "mipmapped", "anisotropic"},
-                   "how materials are sampled; anisotropic where the driver offers it, else as mipmapped");
-    Integer shadow_size = all.integer("shadow_size", 1024, 16, 8192, "side of the shadow map, texels");
-    Choice shadow_pcf = all.choice("shadow_pcf", "5", {"1", "3", "5", "7", "9"},
-                                   "shadow comparisons averaged in either direction, a texel apart");
-    Choice shadow_bias =
-        all.choice("shadow_bias", "slope", {"constant", "slope", "texel"},
-                   "against self-shadowing: 0.0025; by slope and polygon offset; by slope and texel size");
+    gbuffer::GBufferOptions gbuffer{all};
+    gbuffer::SceneOptions scene{all};
+    shadow_map::ShadowOptions shadow{all};
     Choice ssao = all.choice("ssao", "seed", {"off", "seed", "blur", "gtao"},
                              "ambient occlusion: none, noisy, with depth-aware blur, horizons with blur");
     Choice ssao_resolution = all.choice("ssao_resolution", "full", {"full", "half"},
@@ -53,8 +44,6 @@ struct DeferredOptions {
         all.choice("view", "lit", {"lit", "albedo", "normal", "position", "depth", "ssao", "shadow"},
                    "the picture, or one buffer full screen");
     Toggle filmstrip = all.toggle("filmstrip", true, "four buffers along the bottom");
-    Toggle flip_v = all.toggle("flip_v", false,
-                               "turn the model's texture coordinates over: for OBJ files whose v runs down");
     OrbitSettings orbit{all};
     // end excerpt
 };
@@ -83,30 +72,20 @@ Mesh makeFilmstrip() {
                                 {2, 1, offsetof(Vertex, tile)}}});
 }
 
-std::filesystem::path chosen(const std::filesystem::path& given, const Resources& files, const char* own) {
-    return given.empty() ? files.find(own) : given;
-}
-
 class Deferred final : public Rung {
   public:
     using Options = DeferredOptions;
 
     Deferred(RungResources resources, const Options& options)
-        : shaders_(resources.shaders), options_(options),
-          scene_(chosen(resources.given.mesh, resources.files, "assets/cat/cat.obj"),
-                 chosen(resources.given.floor, resources.files, "assets/brick/brick.mtl"),
-                 resources.warnings),
-          environment_(chosen(resources.given.environment, resources.files, "assets/sky/sky.hdr"),
-                       resources.warnings) {
-        // the rung's own cat is what the original drew of it
-        const std::filesystem::path& mesh = resources.given.mesh;
-        if (!mesh.empty()) resources.warnings.add(scene_.notDrawn(mesh.string()));
-    }
+        : shaders_(resources.shaders), options_(options), scene_(resources),
+          environment_(resources.file(&RungFiles::environment, "assets/sky/sky.hdr"), resources.warnings),
+          gbuffer_(resources.shaders), shadow_(resources.shaders) {}
 
     void render(Frame& frame) override {
         setUp(frame);
-        drawShadow(frame);
-        drawGeometry(frame);
+        shadow_.draw(frame, sun_, scene_.depthDraws(options_.scene), options_.shadow);
+        gbuffer_.draw(frame, "geometry", view_, scene_.materialDraws(options_.scene),
+                      options_.scene.defines(), options_.gbuffer);
         drawOcclusion(frame);
         light(frame);
         present(frame);
@@ -114,28 +93,21 @@ class Deferred final : public Rung {
     }
 
   private:
-    static constexpr float light_near = 0.1F; // of the sun's view, units
-    static constexpr float light_far = 20;
-    static constexpr float light_half_width = 4;
-
     // excerpt: animation
     void setUp(const Frame& frame) {
         const float time_s = frame.time_s();
         const float orbit_rad = time_s * 0.3F;
-        camera_ =
+        view_ = gbuffer::View(
             options_.orbit.apply({.position = {4.6F * std::cos(orbit_rad), 2.3F, 4.6F * std::sin(orbit_rad)},
                                   .target = {0, 1, 0},
                                   .vertical_field_of_view_deg = 50,
                                   .near = 0.1F,
-                                  .far = 60});
-        view_from_world_ = camera_.viewFromWorld();
-        clip_from_view_ = camera_.clipFromView(frame.aspect());
+                                  .far = 60}),
+            frame.aspect());
 
         const float sun_rad = time_s * 0.25F;
-        to_sun_ = glm::normalize(glm::vec3(0.6F * std::cos(sun_rad), 1.05F, 0.6F * std::sin(sun_rad)));
-        light_clip_from_world_ = glm::ortho(-light_half_width, light_half_width, -light_half_width,
-                                            light_half_width, light_near, light_far) *
-                                 glm::lookAt(to_sun_ * 8.0F, {0, 0.8F, 0}, {0, 1, 0});
+        sun_.to_sun = glm::normalize(glm::vec3(0.6F * std::cos(sun_rad), 1.05F, 0.6F * std::sin(sun_rad)));
+        sun_.view_from_world = glm::lookAt(sun_.to_sun * 8.0F, {0, 0.8F, 0}, {0, 1, 0});
 
         point_positions_.clear();
         point_colors_.clear();
@@ -151,110 +123,39 @@ class Deferred final : public Rung {
     }
     // end excerpt
 
-    // excerpt: gbuffer
-    // In order of location; depth comes last and, with the first three, makes the 24, 20, 16 or 12 bytes.
-    std::vector<Attachment> gbufferAttachments() const {
-        const bool octahedral = options_.gbuffer == "octahedral" || options_.gbuffer == "compact";
-        std::vector<Attachment> attachments = {
-            {.name = "albedo", .format = options_.albedo == "srgb" ? Format::srgb8_alpha8 : Format::rgba8},
-            {.name = "normal", .format = octahedral ? Format::rg16 : Format::rgba16f}};
-        if (storesPosition()) attachments.push_back({.name = "position", .format = Format::rgba16f});
-        attachments.push_back({.name = "depth", .format = Format::depth24});
-        for (Attachment& attachment : attachments)
-            attachment.filter = Filter::nearest; // between two surfaces there is none
-        return attachments;
-    }
-    bool storesPosition() const { return options_.gbuffer == "seed" || options_.gbuffer == "octahedral"; }
-    // end excerpt
-
     void makeTargets(glm::ivec2 size) {
-        const std::string layout = options_.gbuffer.name() + options_.albedo.name();
-        if (layout != gbuffer_made_for_) {
-            gbuffer_ = Framebuffer(gbufferAttachments(), size);
-            gbuffer_made_for_ = layout;
-        }
-        gbuffer_.resize(size);
         lit_.resize(size);
-        shadow_.resize({options_.shadow_size, options_.shadow_size});
-        if (!(options_.ssao == "off")) occlusion().resize(occlusionSize(size));
+        if (!(options_.ssao == "off")) (halved() ? half_ssao_ : ssao_).resize(occlusionSize(size));
         if (blurred())
             for (Framebuffer& target : noisy_)
                 target.resize(occlusionSize(size));
     }
 
-    MaterialFilter materialFilter() const {
-        return options_.texture_filter == "bilinear"    ? MaterialFilter::bilinear
-               : options_.texture_filter == "mipmapped" ? MaterialFilter::mipmapped
-                                                        : MaterialFilter::anisotropic;
-    }
-
-    // Each draw with its variant of the program.
-    std::vector<Draw> withPrograms(std::vector<Draw> draws, const std::string& stages,
-                                   const Defines& defines) {
-        for (Draw& draw : draws)
-            draw.program = &shaders_.program(stages + ".vert", stages + ".frag", defines + draw.part.defines);
-        return draws;
-    }
-
-    // excerpt: shadow
-    void drawShadow(Frame& frame) {
-        const bool offset = options_.shadow_bias == "slope";
-        const std::vector<Draw> draws =
-            withPrograms(scene_.depthDraws(materialFilter(), options_.flip_v), "10_deferred/shadow", {});
-        frame.pass("shadow", shadow_,
-                   {.program = *draws.front().program,
-                    .uniforms = {{"light_clip_from_world", light_clip_from_world_}},
-                    .draws = draws,
-                    .depth_test = DepthTest::less,
-                    .polygon_offset = offset ? std::optional(glm::vec2(2, 4)) : std::nullopt,
-                    .clear_depth = 1.0F});
-    }
-    // end excerpt
-
-    // excerpt: geometry
-    void drawGeometry(Frame& frame) {
-        const std::vector<Draw> draws =
-            withPrograms(scene_.materialDraws(materialFilter(), options_.flip_v), "10_deferred/geometry",
-                         options_.gbuffer.defines() + options_.texture_filter.defines());
-        frame.pass("geometry", gbuffer_,
-                   {.program = *draws.front().program,
-                    .uniforms = {{"clip_from_world", clip_from_view_ * view_from_world_}},
-                    .draws = draws,
-                    .depth_test = DepthTest::less,
-                    .srgb_encode = options_.albedo == "srgb",
-                    .clear_color = glm::vec4(0),
-                    .clear_depth = 1.0F});
-    }
-    // end excerpt
-
     bool halved() const { return options_.ssao_resolution == "half"; }
     glm::ivec2 occlusionSize(glm::ivec2 size) const { return halved() ? (size + 1) / 2 : size; }
-    Framebuffer& occlusion() { return halved() ? half_ssao_ : ssao_; }
+    const Framebuffer& occlusion() const { return halved() ? half_ssao_ : ssao_; }
     bool blurred() const { return options_.ssao == "blur" || options_.ssao == "gtao"; }
 
     // excerpt: occlusion
     void drawOcclusion(Frame& frame) {
         if (options_.ssao == "off") return;
         const int samples = options_.ssao_samples;
-        Defines defines = options_.gbuffer.defines() + options_.ssao.defines() +
+        const ShaderPart gbuffer = gbuffer_.part(view_, options_.gbuffer);
+        Defines defines = gbuffer.defines + options_.ssao.defines() +
                           Defines{{"WITH_VIEW_Z", blurred() || halved() ? "1" : "0"}};
         if (!(options_.ssao == "gtao")) defines.push_back({"SSAO_SAMPLES", std::to_string(samples)});
         const Program& program = shaders_.fullScreen("10_deferred/ssao.frag", defines);
         const int slices = std::max(samples / 8, 1);
-        const glm::vec2 scale(clip_from_view_[0][0], clip_from_view_[1][1]);
-        frame.pass(
-            "ssao", blurred() ? noisy_[0] : occlusion(),
-            {.program = program,
-             .part = gbufferPart() + ShaderPart{.uniforms = {{"view_from_world", view_from_world_},
-                                                             {"view_z_from_depth", viewZFromDepth()},
-                                                             {"view_from_ndc", 1.0F / scale},
-                                                             {"half_uv_from_view", 0.5F * scale},
-                                                             {"pixel_step", halved() ? 2 : 1},
-                                                             {"radius", options_.ssao_radius},
-                                                             {"slices", slices},
-                                                             {"steps", std::max(samples / (2 * slices), 1)},
-                                                             {"bias", options_.ssao_bias},
-                                                             {"strength", options_.ssao_strength}}}});
+        const glm::vec2 scale(view_.clip_from_view[0][0], view_.clip_from_view[1][1]);
+        frame.pass("ssao", blurred() ? noisy_[0] : occlusion(),
+                   {.program = program,
+                    .part = gbuffer + ShaderPart{.uniforms = {{"half_uv_from_view", 0.5F * scale},
+                                                              {"pixel_step", halved() ? 2 : 1},
+                                                              {"radius", options_.ssao_radius},
+                                                              {"slices", slices},
+                                                              {"steps", std::max(samples / (2 * slices), 1)},
+                                                              {"bias", options_.ssao_bias},
+                                                              {"strength", options_.ssao_strength}}}});
         if (!blurred()) return;
         for (const int axis : {0, 1}) {
             glm::vec2 uv_step(0);
@@ -270,30 +171,19 @@ class Deferred final : public Rung {
 
     // excerpt: lighting
     void light(Frame& frame) {
-        const Program& program = shaders_.fullScreen(
-            "10_deferred/lighting.frag",
-            options_.gbuffer.defines() + options_.ssao.defines() + options_.ssao_resolution.defines() +
-                options_.shadow_bias.defines() + options_.environment_diffuse.defines() +
-                options_.environment_specular.defines() +
-                Defines{{"PCF_TAPS", options_.shadow_pcf.name()},
-                        {"SUN", options_.sun ? "1" : "0"},
-                        {"POINTS", options_.points ? "1" : "0"},
-                        {"ENVIRONMENT", options_.environment ? "1" : "0"}});
         ShaderPart part =
-            gbufferPart() +
-            ShaderPart{.inputs = {{"ssao_map", occlusion().color()},
-                                  {"shadow_map", shadow_.depth()},
-                                  {"environment_map", environment_.map()}},
-                       .uniforms = {
-                           {"to_sun", to_sun_},
-                           {"view_z_from_world", glm::row(view_from_world_, 2)},
-                           {"shadow_from_world",
-                            glm::scale(glm::translate(glm::mat4(1), glm::vec3(0.5F)), glm::vec3(0.5F)) *
-                                light_clip_from_world_},
-                           {"shadow_texel", 2 * light_half_width / static_cast<float>(options_.shadow_size)},
-                           {"shadow_depth_range", light_far - light_near},
-                           {"point_position", point_positions_},
-                           {"point_color", point_colors_}}};
+            gbuffer_.part(view_, options_.gbuffer) + shadow_.part(sun_, options_.shadow) +
+            ShaderPart{.defines = options_.ssao.defines() + options_.ssao_resolution.defines() +
+                                  options_.environment_diffuse.defines() +
+                                  options_.environment_specular.defines() +
+                                  Defines{{"SUN", options_.sun ? "1" : "0"},
+                                          {"POINTS", options_.points ? "1" : "0"},
+                                          {"ENVIRONMENT", options_.environment ? "1" : "0"}},
+                       .inputs = {{"ssao_map", occlusion().color()}, {"environment_map", environment_.map()}},
+                       .uniforms = {{"view_z_from_world", glm::row(view_.view_from_world, 2)},
+                                    {"point_position", point_positions_},
+                                    {"point_color", point_colors_}}};
+        const Program& program = shaders_.fullScreen("10_deferred/lighting.frag", part.defines);
         // made when first used: neither is quick
         if (program.uniforms().contains("irradiance_sh"))
             part.uniforms.push_back({"irradiance_sh", environment_.irradiance()});
@@ -315,61 +205,37 @@ class Deferred final : public Rung {
                 {.program = program, .inputs = {{"lit_map", lit_.color()}}, .part = options_.display.part()});
             return;
         }
-        const Program& program = shaders_.fullScreen(
-            "10_deferred/view.frag", options_.view.defines() + options_.gbuffer.defines() +
-                                         options_.ssao.defines() + options_.display.encode.defines());
+        const ShaderPart part = buffers(frame);
         frame.pass("present", frame.presented(),
-                   {.program = program,
-                    .part = gbufferPart() + ShaderPart{.inputs = {{"ssao_map", occlusion().color()},
-                                                                  {"shadow_map", shadow_.depth()}},
-                                                       .uniforms = {{"aspect", frame.aspect()}}}});
+                   {.program = shaders_.fullScreen("10_deferred/view.frag", part.defines), .part = part});
     }
     // end excerpt
 
     void drawFilmstrip(Frame& frame) {
-        const Program& program = shaders_.program("10_deferred/filmstrip.vert", "10_deferred/filmstrip.frag",
-                                                  options_.gbuffer.defines() + options_.ssao.defines());
+        const ShaderPart part = buffers(frame);
         frame.pass("filmstrip", frame.presented(),
-                   {.program = program,
-                    .part = gbufferPart() + ShaderPart{.inputs = {{"ssao_map", occlusion().color()}}},
+                   {.program = shaders_.program("10_deferred/filmstrip.vert", "10_deferred/filmstrip.frag",
+                                                part.defines),
+                    .part = part,
                     .mesh = &filmstrip_});
     }
 
-    // For shaders that read the G-buffer.
-    ShaderPart gbufferPart() const {
-        const glm::mat3 world_from_view = glm::transpose(glm::mat3(view_from_world_));
-        ShaderPart part = {
-            .inputs = {{"albedo_map", gbuffer_["albedo"]},
-                       {"normal_map", gbuffer_["normal"]},
-                       {"depth_map", gbuffer_["depth"]}},
-            .uniforms = {{"camera_position", camera_.position},
-                         {"view_z_from_depth", viewZFromDepth()},
-                         {"world_from_ray",
-                          glm::mat3(world_from_view[0] / clip_from_view_[0][0],
-                                    world_from_view[1] / clip_from_view_[1][1], -world_from_view[2])},
-                         {"material_shininess", seed_shininess}}};
-        if (storesPosition()) part.inputs.push_back({"position_map", gbuffer_["position"]});
-        return part;
-    }
-
-    // From depth in [0, 1] back through the perspective matrix: view z = x / (depth + y).
-    glm::vec2 viewZFromDepth() const {
-        return {-0.5F * clip_from_view_[3][2], 0.5F * (clip_from_view_[2][2] - 1)};
+    // What is shown of them, one full screen or four along the bottom.
+    ShaderPart buffers(const Frame& frame) const {
+        return gbuffer_.part(view_, options_.gbuffer) + shadow_.part(sun_, options_.shadow) +
+               ShaderPart{.defines = options_.view.defines() + options_.ssao.defines() +
+                                     options_.display.encode.defines(),
+                          .inputs = {{"ssao_map", occlusion().color()}},
+                          .uniforms = {{"aspect", frame.aspect()}}};
     }
 
     ShaderLibrary& shaders_;
     const Options& options_;
-    Scene scene_;
+    gbuffer::Scene scene_;
     Environment environment_;
+    gbuffer::GBuffer gbuffer_;
+    shadow_map::ShadowMap shadow_;
     Mesh filmstrip_ = makeFilmstrip();
-    Framebuffer shadow_{{{.name = "shadow",
-                          .format = Format::depth24,
-                          .filter = Filter::linear,
-                          .wrap = Wrap::border_one, // outside of what the sun's view holds, all is lit
-                          .compare_depth = true}},
-                        {1, 1}};
-    Framebuffer gbuffer_{{{.name = "albedo"}}, {1, 1}}; // see gbufferAttachments()
-    std::string gbuffer_made_for_;
     Framebuffer ssao_{{{.name = "ssao", .format = Format::r8}}, {1, 1}};
     Framebuffer half_ssao_{{{.name = "ssao", .format = Format::rg16f, .filter = Filter::nearest}}, {1, 1}};
     std::array<Framebuffer, 2> noisy_{
@@ -379,11 +245,8 @@ class Deferred final : public Rung {
     Framebuffer lit_{{{.name = "lit", .format = Format::rgba16f, .filter = Filter::nearest}}, {1, 1}};
 
     // of the frame being drawn
-    Camera camera_;
-    glm::mat4 view_from_world_{1};
-    glm::mat4 clip_from_view_{1};
-    glm::mat4 light_clip_from_world_{1};
-    glm::vec3 to_sun_{0, 1, 0};
+    gbuffer::View view_{Camera(), 1};
+    shadow_map::SunView sun_{.half_width = 4, .near = 0.1F, .far = 20};
     std::vector<glm::vec3> point_positions_;
     std::vector<glm::vec3> point_colors_;
 };

@@ -50,7 +50,7 @@ class DeferredFrame : public testing::Test {
 TEST_F(DeferredFrame, isTheSameAfterTheWindowWasOnePixel) {
     render(R"({"size":"320x240","out":"OUT/before.png"}
 {"size":"1x1","out":"OUT/tiny.png"}
-{"size":"7x301","out":"OUT/odd.png","set":{"ssao":"blur","ssao_resolution":"half","gbuffer":"compact"}}
+{"size":"7x301","out":"OUT/odd.png","set":{"ssao":"blur","ssao_resolution":"half","normals":"oct16","positions":"depth24","gloss":"palette"}}
 {"size":"320x240","out":"OUT/after.png"}
 )");
     EXPECT_EQ(image("before.png").pixels, image("after.png").pixels);
@@ -64,11 +64,13 @@ TEST_F(DeferredFrame, hasNothingInfiniteInAnyAttachmentOfAnyLayout) {
                  std::to_string(std::count(batch.begin(), batch.end(), '\n')) + R"(.exr","set":{)" + set +
                  "}}\n";
     };
-    for (const std::string layout : {"seed", "octahedral", "depth", "compact"})
+    for (const std::string layout :
+         {R"("normals":"rgba16f")", R"("normals":"oct16")", R"("positions":"depth24")",
+          R"("normals":"oct16","positions":"depth24","gloss":"palette")"})
         for (const std::string target : {"albedo", "normal", "depth", "ssao", "shadow", "lit"})
-            add(target, R"("gbuffer":")" + layout + R"(","ssao":"gtao")");
+            add(target, layout + R"(,"ssao":"gtao")");
     add("position", "");
-    add("position", R"("gbuffer":"octahedral")");
+    add("position", R"("normals":"oct16")");
     add("lit",
         R"("ssao":"blur","ssao_resolution":"half","environment_diffuse":"sh9","environment_specular":"prefiltered","texture_filter":"anisotropic","albedo":"srgb","shadow_bias":"texel")");
     render(batch);
@@ -107,9 +109,9 @@ TEST_F(DeferredFrame, isTheSumOfItsLights) {
 
 TEST_F(DeferredFrame, looksNearlyTheSameFromEveryLayout) {
     render(R"({"size":"160x120","out":"OUT/seed.png","set":{"filmstrip":false,"ssao":"blur"}}
-{"size":"160x120","out":"OUT/octahedral.png","set":{"filmstrip":false,"ssao":"blur","gbuffer":"octahedral"}}
-{"size":"160x120","out":"OUT/depth.png","set":{"filmstrip":false,"ssao":"blur","gbuffer":"depth"}}
-{"size":"160x120","out":"OUT/compact.png","set":{"filmstrip":false,"ssao":"blur","gbuffer":"compact"}}
+{"size":"160x120","out":"OUT/octahedral.png","set":{"filmstrip":false,"ssao":"blur","normals":"oct16"}}
+{"size":"160x120","out":"OUT/depth.png","set":{"filmstrip":false,"ssao":"blur","positions":"depth24"}}
+{"size":"160x120","out":"OUT/compact.png","set":{"filmstrip":false,"ssao":"blur","normals":"oct16","positions":"depth24","gloss":"palette"}}
 )");
     const auto bytes = [&](const std::string& name) {
         return std::get<std::vector<std::uint8_t>>(image(name + ".png").pixels);

@@ -1,5 +1,5 @@
 // Bump maps: heights become normals, and what is a normal map already is told by its colors.
-#include "10_deferred/height_map.hpp"
+#include "06_gbuffer/height_map.hpp"
 
 #include <array>
 #include <cmath>
@@ -39,31 +39,33 @@ glm::vec3 normalAt(const std::vector<std::uint8_t>& normals, int width, int x, i
 } // namespace
 
 TEST(HeightMap, HeightsAreNoNormals) {
-    EXPECT_FALSE(looksLikeNormalMap(picture(16, 16, [](int x, int) { return Grey{x * 16}; })));
+    EXPECT_FALSE(gbuffer::looksLikeNormalMap(picture(16, 16, [](int x, int) { return Grey{x * 16}; })));
     for (int grey = 0; grey < 256; ++grey)
-        EXPECT_FALSE(looksLikeNormalMap(picture(2, 2, [&](int, int) {
+        EXPECT_FALSE(gbuffer::looksLikeNormalMap(picture(2, 2, [&](int, int) {
             return Rgb{grey, grey, grey};
         }))) << grey;
-    EXPECT_FALSE(looksLikeNormalMap(picture(16, 16, [](int x, int y) { return Rgb{x * 16, y * 16, 40}; })));
-    EXPECT_FALSE(looksLikeNormalMap(picture(16, 16, [](int x, int) {
+    EXPECT_FALSE(gbuffer::looksLikeNormalMap(picture(16, 16, [](int x, int y) {
+        return Rgb{x * 16, y * 16, 40};
+    })));
+    EXPECT_FALSE(gbuffer::looksLikeNormalMap(picture(16, 16, [](int x, int) {
         return Rgb{180, 90, x * 4};
     }))) << "brick";
-    EXPECT_FALSE(looksLikeNormalMap(picture(16, 16, [](int x, int) {
+    EXPECT_FALSE(gbuffer::looksLikeNormalMap(picture(16, 16, [](int x, int) {
         return Rgb{100 + x, 140, 200};
     }))) << "sky";
 }
 
 TEST(HeightMap, NormalMapsAreToldByTheirColors) {
-    EXPECT_TRUE(looksLikeNormalMap(picture(4, 4, [](int, int) { return Rgb{128, 128, 255}; })));
-    EXPECT_TRUE(looksLikeNormalMap(picture(32, 32, [](int x, int y) {
+    EXPECT_TRUE(gbuffer::looksLikeNormalMap(picture(4, 4, [](int, int) { return Rgb{128, 128, 255}; })));
+    EXPECT_TRUE(gbuffer::looksLikeNormalMap(picture(32, 32, [](int x, int y) {
         const glm::vec3 n = glm::normalize(glm::vec3(std::sin(float(x)), std::cos(float(y)), 1.2F));
         return Rgb{int((n.x + 1) * 127), int((n.y + 1) * 127), int((n.z + 1) * 127)};
     })));
     const auto mostly = [](int share) { // of ten columns that are flat normals; the others are black
         return picture(10, 4, [=](int x, int) { return x < share ? Rgb{128, 128, 255} : Rgb{0, 0, 0}; });
     };
-    EXPECT_TRUE(looksLikeNormalMap(mostly(9)));
-    EXPECT_FALSE(looksLikeNormalMap(mostly(8)));
+    EXPECT_TRUE(gbuffer::looksLikeNormalMap(mostly(9)));
+    EXPECT_FALSE(gbuffer::looksLikeNormalMap(mostly(8)));
 }
 
 TEST(HeightMap, ASlopeLeansAwayFromWhereItRises) {
@@ -72,7 +74,7 @@ TEST(HeightMap, ASlopeLeansAwayFromWhereItRises) {
     for (const float scale : {1.0F, 20.0F, -20.0F}) {
         const glm::vec3 expected =
             glm::normalize(glm::vec3(-5 * scale / 255, 10 * scale / 255, 1)); // green up the image
-        const glm::vec3 normal = normalAt(normalsFromHeights(image, 0, scale), 16, 8, 8);
+        const glm::vec3 normal = normalAt(gbuffer::normalsFromHeights(image, 0, scale), 16, 8, 8);
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(normal[c], expected[c], 0.005F) << scale;
     }
@@ -81,9 +83,9 @@ TEST(HeightMap, ASlopeLeansAwayFromWhereItRises) {
 TEST(HeightMap, RepeatsAndReadsTheChannelThatIsAsked) {
     // One white column at the left: what is right of it, and left of it round the edge, leans away.
     const Image image = picture(8, 2, [](int x, int) { return Rgb{0, x == 0 ? 255 : 0, 0}; });
-    const auto normals = normalsFromHeights(image, 1, 2.0F);
+    const auto normals = gbuffer::normalsFromHeights(image, 1, 2.0F);
     EXPECT_GT(normalAt(normals, 8, 1, 0).x, 0.5F);
     EXPECT_LT(normalAt(normals, 8, 7, 0).x, -0.5F);
     EXPECT_NEAR(normalAt(normals, 8, 0, 0).x, 0.0F, 0.01F);
-    EXPECT_NEAR(normalAt(normalsFromHeights(image, 0, 2.0F), 8, 1, 0).x, 0.0F, 0.01F);
+    EXPECT_NEAR(normalAt(gbuffer::normalsFromHeights(image, 0, 2.0F), 8, 1, 0).x, 0.0F, 0.01F);
 }

@@ -1,4 +1,5 @@
 // The shaders' formulas, each drawn by itself and read back.
+#include "06_gbuffer/gbuffer.hpp"
 #include "gl_test.hpp"
 
 #include <algorithm>
@@ -13,11 +14,12 @@
 namespace gll::test {
 namespace {
 
-const Defines seed_layout = {{"GBUFFER_SEED", "0"},
-                             {"GBUFFER_OCTAHEDRAL", "1"},
-                             {"GBUFFER_DEPTH", "2"},
-                             {"GBUFFER_COMPACT", "3"},
-                             {"GBUFFER", "0"}};
+// Of the G-buffer, as the settings' defaults make it.
+Defines layout() {
+    Settings settings;
+    return gbuffer::GBufferOptions(settings).defines();
+}
+const Defines original_layout = layout();
 const Defines ssao_kinds = {{"SSAO_OFF", "0"}, {"SSAO_SEED", "1"}, {"SSAO_BLUR", "2"}, {"SSAO_GTAO", "3"}};
 
 std::vector<float> valuesOf(const Texture& texture) {
@@ -40,7 +42,7 @@ class DeferredShader : public GlTest {
 
 TEST_F(DeferredShader, octahedralNormalsIn32BitsAreWithin0004Degrees) {
     const std::string direction = R"(
-#include "10_deferred/octahedral.glsl"
+#include "06_gbuffer/octahedral.glsl"
 in vec2 uv;
 vec3 direction() {
     float z = 1.0 - 2.0 * uv.y;
@@ -124,8 +126,8 @@ void main() {
                  .uniforms = {{"world_from_clip", glm::inverse(clip_from_view * view_from_world)},
                               {"camera", camera}}});
     for (const char* kind : {"1", "2", "3"}) {
-        Defines defines =
-            seed_layout + ssao_kinds + Defines{{"SSAO", kind}, {"SSAO_SAMPLES", "16"}, {"WITH_VIEW_Z", "0"}};
+        Defines defines = original_layout + ssao_kinds +
+                          Defines{{"SSAO", kind}, {"SSAO_SAMPLES", "16"}, {"WITH_VIEW_Z", "0"}};
         const Program& ssao = shaders.fullScreen("10_deferred/ssao.frag", defines);
         const Framebuffer target({{.name = "ssao", .format = Format::r8}}, {160, 120});
         draw(target, {.program = ssao,
@@ -149,22 +151,18 @@ void main() {
 
 // shadow.glsl asks for shadows at places given one a pixel.
 constexpr const char* shadow_probe = R"(
-#include "10_deferred/gbuffer.glsl"
-#include "10_deferred/shadow.glsl"
+#include "07_shadow_map/shadow.glsl"
 uniform vec3 place[4];
 out float visible;
 void main() {
-    Surface surface;
-    surface.world_normal = vec3(0.0, 0.0, 1.0);
-    surface.world_position = place[int(gl_FragCoord.x)];
-    visible = sunVisible(surface, vec3(0.0, 0.0, 1.0));
+    visible = sunVisible(place[int(gl_FragCoord.x)], vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0));
 }
 )";
-const Defines shadow_defines = seed_layout + Defines{{"PCF_TAPS", "5"},
-                                                     {"SHADOW_BIAS", "1"},
-                                                     {"SHADOW_BIAS_CONSTANT", "0"},
-                                                     {"SHADOW_BIAS_SLOPE", "1"},
-                                                     {"SHADOW_BIAS_TEXEL", "2"}};
+const Defines shadow_defines = original_layout + Defines{{"PCF_TAPS", "5"},
+                                                         {"SHADOW_BIAS", "1"},
+                                                         {"SHADOW_BIAS_CONSTANT", "0"},
+                                                         {"SHADOW_BIAS_SLOPE", "1"},
+                                                         {"SHADOW_BIAS_TEXEL", "2"}};
 
 TEST_F(DeferredShader, aPlaceOutsideTheLightsFrustumIsLit) {
     const Framebuffer shadow(
@@ -198,15 +196,14 @@ void main() { gl_FragDepth = turnOf(ivec2(gl_FragCoord.xy)); }
                   .depth_test = DepthTest::less,
                   .clear_depth = 1.0F});
     for (const char* taps : {"1", "3", "5", "7", "9"}) {
-        Defines defines = seed_layout + Defines{{"SHADOW_BIAS", "0"},
-                                                {"SHADOW_BIAS_CONSTANT", "0"},
-                                                {"SHADOW_BIAS_SLOPE", "1"},
-                                                {"SHADOW_BIAS_TEXEL", "2"},
-                                                {"PCF_TAPS", taps}};
+        Defines defines = original_layout + Defines{{"SHADOW_BIAS", "0"},
+                                                    {"SHADOW_BIAS_CONSTANT", "0"},
+                                                    {"SHADOW_BIAS_SLOPE", "1"},
+                                                    {"SHADOW_BIAS_TEXEL", "2"},
+                                                    {"PCF_TAPS", taps}};
         const Framebuffer target({{.name = "difference", .format = Format::r32f}}, {128, 128});
         draw(target, {.program = program(R"(
-#include "10_deferred/gbuffer.glsl"
-#include "10_deferred/shadow.glsl"
+#include "07_shadow_map/shadow.glsl"
 in vec2 uv;
 out float difference;
 void main() {
@@ -229,8 +226,8 @@ void main() {
 
 TEST_F(DeferredShader, normalsStandWhereTextureCoordinatesHaveNoArea) {
     const Program& geometry =
-        shaders.program("10_deferred/geometry.vert", "10_deferred/geometry.frag",
-                        seed_layout + Defines{{"TEXTURE_FILTER_BILINEAR", "0"}, {"TEXTURE_FILTER", "0"}});
+        shaders.program("06_gbuffer/geometry.vert", "06_gbuffer/geometry.frag",
+                        original_layout + Defines{{"TEXTURE_FILTER_BILINEAR", "0"}, {"TEXTURE_FILTER", "0"}});
     const std::vector<std::uint8_t> tilted = {220, 160, 200, 128};
     const Texture map(TextureDescription{}, std::span<const std::uint8_t>(tilted));
     for (const float uv_scale : {0.0F, 1e-6F, -1.0F, 1e6F}) {

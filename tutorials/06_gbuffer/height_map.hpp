@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace gll {
+namespace gll::gbuffer {
 
 // Whether 8-bit colors are directions rather than heights: nine tenths of them decode, as 2 c - 1, to vectors
 // within 0.2 of unit length that point out of the surface and are blue. No grey does: where its three
@@ -19,4 +19,4 @@ bool looksLikeNormalMap(const Image& image);
 // those of an image that repeats.
 std::vector<std::uint8_t> normalsFromHeights(const Image& image, int channel, float scale);
 
-} // namespace gll
+} // namespace gll::gbuffer

@@ -2,7 +2,7 @@
 // Evaluates the material once for each pixel and writes what lighting will need of it, for no light yet.
 // Variants, beside the layouts': VERTEX_COLOR, the mesh has colors; SEPARATE_MAPS, images are not packed in two;
 // ALPHA_MASK, which comes with SEPARATE_MAPS, the material has holes.
-#include "10_deferred/gbuffer.glsl"
+#include "06_gbuffer/gbuffer.glsl"
 
 in vec3 world_position;
 in vec3 world_normal;
@@ -37,6 +37,16 @@ layout(location = 0) out vec4 albedo_out;
 layout(location = 1) out vec4 normal_out;
 #if STORES_POSITION
 layout(location = 2) out vec4 position_out;
+#elif STORES_VIEW_Z
+uniform vec4 view_z_from_world; // of a world position, w 1
+layout(location = 2) out float view_z_out;
+#endif
+#if GLOSS_IN == GLOSS_IN_TARGET
+#if STORES_VIEW_Z
+layout(location = 3) out float gloss_out;
+#else
+layout(location = 2) out float gloss_out;
+#endif
 #endif
 
 // Images are sRGB. Without mip levels the seed's power does; where levels are averaged it must be done in linear
@@ -133,20 +143,26 @@ void main() {
     vec3 normal = perturbedNormal(seenNormal(normalize(world_normal)), tangentNormal(surface.rgb));
     cutHoles();
 
-#if GBUFFER == GBUFFER_COMPACT
-    albedo_out = vec4(albedo, packSpecular(specular, material));
-#else
+    float gloss = packGloss(shininess);
     albedo_out = vec4(albedo, specular);
-#endif
-#if STORES_OCTAHEDRAL
-    normal_out = vec4(octahedralFromDirection(normal), 0.0, 0.0);
-#else
-    normal_out = vec4(normal, shininess);
-#endif
-#if GBUFFER == GBUFFER_SEED
+    normal_out = packNormal(normal);
+#if STORES_POSITION
     position_out = vec4(world_position, 1.0 + material);
-#elif GBUFFER == GBUFFER_OCTAHEDRAL
-    position_out = vec4(world_position, shininess);
+#elif STORES_VIEW_Z
+    view_z_out = dot(view_z_from_world, vec4(world_position, 1.0));
+#endif
+#if GLOSS_IN == GLOSS_IN_NORMAL_ALPHA
+    normal_out.a = gloss;
+#elif GLOSS_IN == GLOSS_IN_NORMAL_BLUE
+    normal_out.b = gloss;
+#elif GLOSS_IN == GLOSS_IN_POSITION_ALPHA
+    position_out.a = GLOSS == GLOSS_FLOAT ? gloss : 1.0 + gloss; // 0 is the background's
+#elif GLOSS_IN == GLOSS_IN_TARGET
+    gloss_out = gloss;
+#elif GLOSS == GLOSS_PALETTE
+    albedo_out.a = packSpecular(specular, material);
+#else
+    albedo_out.a = packSpecular(specular, gloss * 15.0);
 #endif
 }
 // end excerpt

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace gll {
+namespace gll::gbuffer {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -235,4 +235,4 @@ MaterialTextures loadMaterial(const MaterialData& material, MaterialFilter filte
             .roughness = alone(material.roughness_texture, material.roughness, 0)};
 }
 
-} // namespace gll
+} // namespace gll::gbuffer

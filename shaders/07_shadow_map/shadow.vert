@@ -1,7 +1,7 @@
 #version 330 core
 // The scene as the sun sees it: depth alone. Variants: ALPHA_MASK, for materials with holes, and VERTEX_COLOR, where
 // the mesh's colors add to them.
-#include "10_deferred/place_uv.glsl"
+#include "06_gbuffer/place_uv.glsl"
 
 layout(location = 0) in vec3 world_position;
 #ifdef ALPHA_MASK

@@ -20,3 +20,22 @@ vec3 directionFromOctahedral(vec2 stored) {
     return normalize(direction);
 }
 // end excerpt
+
+// excerpt: precise
+// The code, of `steps` + 1 either way, that decodes nearest to the direction: rounding each number by itself may miss it
+// (Cigolle et al. 2014, "oct precise"). As what the target will store: [0, 1] squared.
+vec2 nearestOctahedral(vec3 direction, float steps) {
+    vec2 low = floor(octahedralFromDirection(direction) * steps);
+    vec2 best = low;
+    float least = 4.0; // squared distance: cosines near 1 would not tell 16-bit codes apart
+    for (int i = 0; i < 4; ++i) {
+        vec2 code = min(low + vec2(i & 1, i >> 1), steps);
+        vec3 off = directionFromOctahedral(code / steps) - direction;
+        if (dot(off, off) < least) {
+            least = dot(off, off);
+            best = code;
+        }
+    }
+    return best / steps;
+}
+// end excerpt

@@ -8,7 +8,7 @@
 
 #include <glm/vec3.hpp>
 
-namespace gll {
+namespace gll::gbuffer {
 
 enum class MaterialFilter { bilinear, mipmapped, anisotropic };
 
@@ -32,4 +32,4 @@ bool needsSeparateMaps(const MaterialData& material);
 // are those of normals, which is then said.
 MaterialTextures loadMaterial(const MaterialData& material, MaterialFilter filter, Warnings& warnings);
 
-} // namespace gll
+} // namespace gll::gbuffer

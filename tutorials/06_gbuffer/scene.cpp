@@ -1,6 +1,8 @@
 // Loading the scene and listing its draws.
 #include "scene.hpp"
 
+#include "gbuffer.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -12,20 +14,13 @@
 #include <stdexcept>
 #include <tuple>
 
-namespace gll {
+namespace gll::gbuffer {
 namespace {
 
 constexpr float statue_height = 2.2F;
 constexpr float statue_radius = 1.35F; // of the sphere round a model; the cat's is a little smaller
 constexpr float least_height = 0.005F;
-constexpr float floor_half_width = 6;
 constexpr float floor_uv_per_unit = 0.35F;
-
-struct Vertex {
-    glm::vec3 position;
-    glm::vec3 normal;
-    glm::vec2 uv;
-};
 
 // Vertices grow by colors and second_uvs where there are any.
 Mesh makeMesh(std::span<const Vertex> vertices, std::span<const std::uint32_t> indices,
@@ -124,10 +119,10 @@ MaterialData withNormals(MaterialData material) {
     return material;
 }
 
-Mesh makeFloor() {
+Mesh makeFloor(float half_width) {
     std::vector<Vertex> vertices;
     for (const glm::vec2 corner : {glm::vec2(-1, 1), glm::vec2(1, 1), glm::vec2(1, -1), glm::vec2(-1, -1)}) {
-        const glm::vec2 place = corner * floor_half_width;
+        const glm::vec2 place = corner * half_width;
         vertices.push_back({{place.x, 0, place.y}, {0, 1, 0}, place * floor_uv_per_unit});
     }
     constexpr std::uint32_t indices[] = {0, 1, 2, 0, 2, 3};
@@ -136,10 +131,27 @@ Mesh makeFloor() {
 
 } // namespace
 
-Scene::Scene(const std::filesystem::path& mesh, const std::filesystem::path& floor, Warnings& warnings)
-    : warnings_(warnings), statue_(Mesh::fullScreenTriangle()), floor_(makeFloor()) {
+SceneOptions::SceneOptions(Settings& settings)
+    : texture_filter(settings.choice(
+          "texture_filter", "bilinear", {"bilinear", "mipmapped", "anisotropic"},
+          "how materials are sampled; anisotropic where the driver offers it, else as mipmapped")),
+      flip_v(settings.toggle("flip_v", false,
+                             "turn the model's texture coordinates over: for OBJ files whose v runs down")) {
+    settings.shared("06_gbuffer", {"texture_filter", "flip_v"});
+}
+
+MaterialFilter SceneOptions::filter() const {
+    return texture_filter == "bilinear"    ? MaterialFilter::bilinear
+           : texture_filter == "mipmapped" ? MaterialFilter::mipmapped
+                                           : MaterialFilter::anisotropic;
+}
+
+Scene::Scene(const RungResources& resources, float floor_half_width)
+    : warnings_(resources.warnings), statue_(Mesh::fullScreenTriangle()),
+      floor_(makeFloor(floor_half_width)) {
+    const std::filesystem::path mesh = resources.file(&RungFiles::mesh, "assets/cat/cat.obj");
     const MeshData data = loadMesh(mesh);
-    warnings.add(data.warnings);
+    warnings_.add(data.warnings);
     statue_has_colors_ = !data.colors.empty();
     statue_is_sheet_ = isSheet(data);
     statue_ = makeStatue(data, mesh);
@@ -147,7 +159,7 @@ Scene::Scene(const std::filesystem::path& mesh, const std::filesystem::path& flo
         surfaces_.push_back({.data = withNormals(material),
                              .occluded_albedo = 0.55F,
                              .specular_scale = 0.6F,
-                             .shininess = seed_shininess.x,
+                             .shininess = palette_shininess.x,
                              .normal_strength = material.normal_scale,
                              .tag = 0,
                              .textures = {}});
@@ -155,16 +167,33 @@ Scene::Scene(const std::filesystem::path& mesh, const std::filesystem::path& flo
         parts_.push_back({&statue_, part.material, part.first_index, part.index_count});
     // the floor's normals are exaggerated, or the mortar would not be seen
     std::vector<std::string> floor_warnings;
+    const std::filesystem::path floor = resources.file(&RungFiles::floor, "assets/brick/brick.mtl");
     const MaterialData material = withNormals(loadMtl(floor, floor_warnings).front());
-    warnings.add(floor_warnings);
+    warnings_.add(floor_warnings);
     surfaces_.push_back({.data = material,
                          .occluded_albedo = 0.5F,
                          .specular_scale = 0.4F,
-                         .shininess = seed_shininess.y,
+                         .shininess = palette_shininess.y,
                          .normal_strength = 3 * material.normal_scale,
                          .tag = 1,
                          .textures = {}});
     parts_.push_back({&floor_, surfaces_.size() - 1, 0, 0});
+    // the project's own cat is what the original drew of it
+    if (!resources.given.mesh.empty()) warnings_.add(notDrawn(mesh.string()));
+}
+
+void Scene::add(const PlainObject& object) {
+    MaterialData material;
+    material.base_color = glm::vec4(object.color, 1);
+    surfaces_.push_back({.data = material,
+                         .occluded_albedo = 1,
+                         .specular_scale = object.specular,
+                         .shininess = object.shininess,
+                         .normal_strength = 1,
+                         .tag = 0,
+                         .textures = {}});
+    added_.push_back(makeMesh(object.vertices, object.indices));
+    parts_.push_back({&added_.back(), surfaces_.size() - 1, 0, 0});
 }
 
 std::vector<std::string> Scene::notDrawn(const std::string& where) const {
@@ -191,23 +220,23 @@ const MaterialTextures& Scene::texturesOf(Surface& surface, MaterialFilter filte
     return *textures;
 }
 
-Draw Scene::drawOf(const Part& part, MaterialFilter filter, bool flip_v) {
+Draw Scene::drawOf(const Part& part, const SceneOptions& options) {
     Surface& surface = surfaces_[part.surface];
     const MaterialData& data = surface.data;
-    const MaterialTextures& textures = texturesOf(surface, filter);
+    const MaterialTextures& textures = texturesOf(surface, options.filter());
     const bool of_statue = part.mesh == &statue_;
-    Draw result = {
-        .mesh = *part.mesh,
-        .part = {.inputs = {{"base_map", textures.base}, {"surface_map", textures.surface}},
-                 .uniforms = {{"base_color", glm::vec3(data.base_color)},
-                              {"occluded_albedo", surface.occluded_albedo},
-                              {"specular_scale", surface.specular_scale},
-                              {"shininess", surface.shininess},
-                              {"normal_strength", surface.normal_strength},
-                              {"material", surface.tag},
-                              {"v_factor_offset", flip_v && of_statue ? glm::vec2(-1, 1) : glm::vec2(1, 0)}}},
-        .first_index = part.first_index,
-        .index_count = part.index_count};
+    Draw result = {.mesh = *part.mesh,
+                   .part = {.inputs = {{"base_map", textures.base}, {"surface_map", textures.surface}},
+                            .uniforms = {{"base_color", glm::vec3(data.base_color)},
+                                         {"occluded_albedo", surface.occluded_albedo},
+                                         {"specular_scale", surface.specular_scale},
+                                         {"shininess", surface.shininess},
+                                         {"normal_strength", surface.normal_strength},
+                                         {"material", surface.tag},
+                                         {"v_factor_offset",
+                                          options.flip_v && of_statue ? glm::vec2(-1, 1) : glm::vec2(1, 0)}}},
+                   .first_index = part.first_index,
+                   .index_count = part.index_count};
     if (of_statue && statue_has_colors_) result.part.defines.push_back({"VERTEX_COLOR", "1"});
     if (of_statue && statue_is_sheet_) result.part.defines.push_back({"SHEET", "1"});
     if (!needsSeparateMaps(data)) return result;
@@ -233,26 +262,30 @@ Draw Scene::drawOf(const Part& part, MaterialFilter filter, bool flip_v) {
     return result;
 }
 
-std::vector<Draw> Scene::materialDraws(MaterialFilter filter, bool flip_v) {
+std::vector<Draw> Scene::materialDraws(const SceneOptions& options) {
     std::vector<Draw> draws;
     for (const Part& part : parts_)
-        draws.push_back(drawOf(part, filter, flip_v));
+        draws.push_back(drawOf(part, options));
     return draws;
 }
 
-std::vector<Draw> Scene::depthDraws(MaterialFilter filter, bool flip_v) {
+std::vector<Draw> Scene::depthDraws(const SceneOptions& options) {
     const auto hasHoles = [&](const Part& part) {
         return surfaces_[part.surface].data.alpha_mode == AlphaMode::mask;
     };
     std::vector<Draw> draws = {{.mesh = floor_}};
     if (std::none_of(parts_.begin(), parts_.end(), hasHoles)) {
         draws.push_back({.mesh = statue_});
+        for (const Mesh& mesh : added_)
+            draws.push_back({.mesh = mesh});
         return draws;
     }
+    for (const Mesh& mesh : added_)
+        draws.push_back({.mesh = mesh});
     for (const Part& part : parts_) {
         if (part.mesh != &statue_) continue;
         if (hasHoles(part))
-            draws.push_back(drawOf(part, filter, flip_v));
+            draws.push_back(drawOf(part, options));
         else
             draws.push_back(
                 {.mesh = statue_, .first_index = part.first_index, .index_count = part.index_count});
@@ -260,4 +293,4 @@ std::vector<Draw> Scene::depthDraws(MaterialFilter filter, bool flip_v) {
     return draws;
 }
 
-} // namespace gll
+} // namespace gll::gbuffer

@@ -51,9 +51,9 @@ float shadowBias(float n_dot_l) {
 // end excerpt
 
 // 1: seen, 0: in shadow, and where the surface faces away or all but.
-float sunVisible(Surface surface, vec3 to_sun) {
-    float n_dot_l = dot(surface.world_normal, to_sun);
-    vec3 place = (shadow_from_world * vec4(surface.world_position, 1.0)).xyz;
+float sunVisible(vec3 world_position, vec3 world_normal, vec3 to_sun) {
+    float n_dot_l = dot(world_normal, to_sun);
+    vec3 place = (shadow_from_world * vec4(world_position, 1.0)).xyz;
     float depth = place.z - shadowBias(max(n_dot_l, 0.0));
     float visible = place.z > 1.0 ? 1.0 : filteredShadow(place.xy, clamp(depth, 0.0, 1.0));
     return n_dot_l < 0.05 ? 0.0 : visible;

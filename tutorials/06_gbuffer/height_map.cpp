@@ -8,7 +8,7 @@
 #include <glm/vec3.hpp>
 #include <variant>
 
-namespace gll {
+namespace gll::gbuffer {
 
 bool looksLikeNormalMap(const Image& image) {
     const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&image.pixels);
@@ -49,4 +49,4 @@ std::vector<std::uint8_t> normalsFromHeights(const Image& image, int channel, fl
     return normals;
 }
 
-} // namespace gll
+} // namespace gll::gbuffer

@@ -1,7 +1,7 @@
 #version 330 core
 // Puts the scene, which is modelled in world space, before the camera.
 // Variants: VERTEX_COLOR, the mesh has colors; SEPARATE_MAPS, every image of the material has its own place.
-#include "10_deferred/place_uv.glsl"
+#include "06_gbuffer/place_uv.glsl"
 
 layout(location = 0) in vec3 vertex_position; // world
 layout(location = 1) in vec3 vertex_normal;   // world, unit length

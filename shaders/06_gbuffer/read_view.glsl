@@ -1,13 +1,17 @@
 // The G-buffer in view space, for occlusion: right-handed, looking down -z.
-#include "10_deferred/gbuffer.glsl"
+#include "06_gbuffer/gbuffer.glsl"
 
 uniform mat4 view_from_world;
 uniform sampler2D normal_map;
 #if STORES_POSITION
 uniform sampler2D position_map;
 #else
+#if STORES_VIEW_Z
+uniform sampler2D view_z_map;
+#else
 uniform sampler2D depth_map;
 uniform vec2 view_z_from_depth; // view z = x / (depth + y)
+#endif
 uniform vec2 view_from_ndc;     // view xy = ndc * this * -view z
 #endif
 
@@ -27,10 +31,17 @@ vec3 viewPositionAt(vec2 uv) {
     return stored.w > 0.0 ? view_position : vec3(0.0, 0.0, 2.0 * background_view_z);
 }
 #else
+#if STORES_VIEW_Z
+float viewZAt(vec2 uv) {
+    float z = textureLod(view_z_map, uv, 0.0).r;
+    return z < 0.0 ? z : 2.0 * background_view_z;
+}
+#else
 float viewZAt(vec2 uv) {
     float depth = textureLod(depth_map, uv, 0.0).r;
     return depth < 1.0 ? view_z_from_depth.x / (depth + view_z_from_depth.y) : 2.0 * background_view_z;
 }
+#endif
 
 vec3 viewPositionAt(vec2 uv) {
     float z = viewZAt(uv);
@@ -39,10 +50,5 @@ vec3 viewPositionAt(vec2 uv) {
 #endif
 
 vec3 viewNormalAt(vec2 uv) {
-#if STORES_OCTAHEDRAL
-    vec3 world_normal = directionFromOctahedral(textureLod(normal_map, uv, 0.0).rg);
-#else
-    vec3 world_normal = normalize(textureLod(normal_map, uv, 0.0).rgb);
-#endif
-    return mat3(view_from_world) * world_normal;
+    return mat3(view_from_world) * unpackNormal(textureLod(normal_map, uv, 0.0));
 }

@@ -1,0 +1,83 @@
+// Reading the G-buffer back: what is there at a place of the screen, whatever layout it has.
+#include "06_gbuffer/gbuffer.glsl"
+
+uniform sampler2D albedo_map;
+uniform sampler2D normal_map;
+#if STORES_POSITION
+uniform sampler2D position_map;
+#else
+#if STORES_VIEW_Z
+uniform sampler2D view_z_map;
+#else
+uniform sampler2D depth_map;
+uniform vec2 view_z_from_depth; // view z = x / (depth + y)
+#endif
+uniform vec3 camera_position;   // world
+uniform mat3 world_from_ray;    // (ndc x, ndc y, 1) to the world vector from the camera to view z = -1
+#endif
+#if GLOSS_IN == GLOSS_IN_TARGET
+uniform sampler2D gloss_map;
+#endif
+#if GLOSS == GLOSS_PALETTE
+uniform vec2 material_shininess; // of materials 0 and 1
+#endif
+
+// excerpt: position_from_depth
+#if STORES_POSITION
+// xyz: world position; w: 0 where there is nothing, the background
+vec4 positionAt(vec2 uv) { return textureLod(position_map, uv, 0.0); }
+#else
+// Depth says how far along the pixel's ray; the ray is linear over the screen. 0: background.
+#if STORES_VIEW_Z
+float viewZAt(vec2 uv) { return textureLod(view_z_map, uv, 0.0).r; }
+#else
+float viewZAt(vec2 uv) {
+    float depth = textureLod(depth_map, uv, 0.0).r;
+    return depth < 1.0 ? view_z_from_depth.x / (depth + view_z_from_depth.y) : 0.0;
+}
+#endif
+
+vec4 positionAt(vec2 uv) {
+    float view_z = viewZAt(uv);
+    vec3 ray = world_from_ray * vec3(uv * 2.0 - 1.0, 1.0);
+    return vec4(camera_position - view_z * ray, view_z < 0.0 ? 1.0 : 0.0);
+}
+#endif
+// end excerpt
+
+vec3 normalAt(vec2 uv) { return unpackNormal(textureLod(normal_map, uv, 0.0)); }
+
+// Of a place that is not background.
+Surface surfaceAt(vec2 uv, vec4 position) {
+    vec4 albedo = textureLod(albedo_map, uv, 0.0);
+    vec4 normal = textureLod(normal_map, uv, 0.0);
+    Surface surface;
+    surface.albedo = albedo.rgb;
+    surface.specular = albedo.a;
+    surface.world_position = position.xyz;
+    surface.world_normal = unpackNormal(normal);
+    surface.material = 0.0;
+#if GLOSS_IN == GLOSS_IN_NORMAL_ALPHA
+    surface.shininess = unpackGloss(normal.a);
+#elif GLOSS_IN == GLOSS_IN_NORMAL_BLUE
+    surface.shininess = unpackGloss(normal.b);
+#elif GLOSS_IN == GLOSS_IN_POSITION_ALPHA
+#if GLOSS == GLOSS_FLOAT
+    surface.shininess = position.a;
+#else
+    surface.shininess = unpackGloss(position.a - 1.0);
+#endif
+#elif GLOSS_IN == GLOSS_IN_TARGET
+    surface.shininess = unpackGloss(textureLod(gloss_map, uv, 0.0).r);
+#else
+    vec2 specular_upper = unpackSpecular(albedo.a);
+    surface.specular = specular_upper.x;
+#if GLOSS == GLOSS_PALETTE
+    surface.material = specular_upper.y;
+    surface.shininess = mix(material_shininess.x, material_shininess.y, surface.material);
+#else
+    surface.shininess = unpackGloss(specular_upper.y / 15.0);
+#endif
+#endif
+    return surface;
+}

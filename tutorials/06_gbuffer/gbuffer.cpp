@@ -1,0 +1,139 @@
+// Layouts of the G-buffer, drawing into it, and what readers of it need.
+#include "gbuffer.hpp"
+
+#include <glm/gtc/matrix_access.hpp>
+
+namespace gll::gbuffer {
+
+// excerpt: settings
+GBufferOptions::GBufferOptions(Settings& settings)
+    : normals(settings.choice(
+          "normals", "rgba16f", {"rgba32f", "rgba16f", "rgb10", "rgb8", "oct16", "oct12", "oct10", "oct8"},
+          "what holds normals: x, y and z in a format; or two octahedral numbers of so many bits")),
+      precise(settings.toggle("precise", false,
+                              "of the four octahedral codes round a normal, store the nearest")),
+      positions(settings.choice("positions", "rgba16f",
+                                {"rgba32f", "rgba16f", "linear", "depth32f", "depth24", "depth16"},
+                                "what tells positions: x, y and z; view z as a 32-bit float; or the depth "
+                                "buffer alone")),
+      gloss(settings.choice("gloss", "float", {"float", "8", "6", "4", "palette"},
+                            "what holds the exponent of highlights: a float; its logarithm in bits; or which "
+                            "of two materials it is")),
+      albedo(settings.choice("albedo", "linear", {"float", "linear", "srgb"},
+                             "how albedo is stored: 32-bit floats; 8 bits, which have bands in the dark; 8 "
+                             "bits of sRGB")) {
+    settings.shared("06_gbuffer", {"normals", "precise", "positions", "gloss", "albedo"});
+}
+// end excerpt
+
+// excerpt: gloss_place
+// Where a channel is left over that can hold it, it costs nothing.
+GlossPlace GBufferOptions::glossPlace() const {
+    const bool in_bits = !(gloss == "float") && !(gloss == "palette");
+    if (gloss == "palette") return GlossPlace::albedo_alpha; // one bit of the specular intensity's eight
+    if (normals == "rgba32f" || normals == "rgba16f") return GlossPlace::normal_alpha;
+    if (in_bits && (normals == "rgb8" || normals == "oct12")) return GlossPlace::normal_alpha;
+    if (in_bits && normals == "oct10") return GlossPlace::normal_blue;
+    if (storesPosition()) return GlossPlace::position_alpha;
+    if (gloss == "4") return GlossPlace::albedo_alpha; // four bits of the eight
+    return GlossPlace::target;
+}
+// end excerpt
+
+// excerpt: layout
+std::vector<Attachment> GBufferOptions::attachments() const {
+    const auto format = [](const Choice& choice,
+                           std::initializer_list<std::pair<const char*, Format>> formats) {
+        for (const auto& [name, value] : formats)
+            if (choice == name) return value;
+        return Format::depth24; // beside positions that are stored
+    };
+    std::vector<Attachment> attachments = {
+        {.name = "albedo",
+         .format =
+             format(albedo,
+                    {{"float", Format::rgba32f}, {"linear", Format::rgba8}, {"srgb", Format::srgb8_alpha8}})},
+        {.name = "normal",
+         .format = format(normals, {{"rgba32f", Format::rgba32f},
+                                    {"rgba16f", Format::rgba16f},
+                                    {"rgb10", Format::rgb10_a2},
+                                    {"rgb8", Format::rgba8},
+                                    {"oct16", Format::rg16},
+                                    {"oct12", Format::rgba8}, // three bytes hold both, see gbuffer.glsl
+                                    {"oct10", Format::rgb10_a2},
+                                    {"oct8", Format::rg8}})}};
+    if (storesPosition())
+        attachments.push_back(
+            {.name = "position", .format = positions == "rgba32f" ? Format::rgba32f : Format::rgba16f});
+    if (positions == "linear") attachments.push_back({.name = "view_z", .format = Format::r32f});
+    if (glossPlace() == GlossPlace::target)
+        attachments.push_back({.name = "gloss", .format = gloss == "float" ? Format::r16f : Format::r8});
+    attachments.push_back(
+        {.name = "depth",
+         .format = format(positions, {{"depth16", Format::depth16}, {"depth32f", Format::depth32f}})});
+    for (Attachment& attachment : attachments)
+        attachment.filter = Filter::nearest;
+    return attachments;
+}
+// end excerpt
+
+Defines GBufferOptions::defines() const {
+    const Defines places = {
+        {"GLOSS_IN_NORMAL_ALPHA", "0"},   {"GLOSS_IN_NORMAL_BLUE", "1"},
+        {"GLOSS_IN_POSITION_ALPHA", "2"}, {"GLOSS_IN_ALBEDO_ALPHA", "3"},
+        {"GLOSS_IN_TARGET", "4"},         {"GLOSS_IN", std::to_string(static_cast<int>(glossPlace()))}};
+    return normals.defines() + positions.defines() + gloss.defines() + places +
+           Defines{{"PRECISE", precise ? "1" : "0"}};
+}
+
+std::vector<Draw> withPrograms(ShaderLibrary& shaders, std::vector<Draw> draws, const std::string& stages,
+                               const Defines& defines) {
+    for (Draw& draw : draws)
+        draw.program = &shaders.program(stages + ".vert", stages + ".frag", defines + draw.part.defines);
+    return draws;
+}
+
+// excerpt: geometry
+void GBuffer::draw(Frame& frame, const std::string& pass, const View& view, const std::vector<Draw>& draws,
+                   const Defines& material, const GBufferOptions& options) {
+    const std::string layout =
+        options.normals.name() + options.positions.name() + options.gloss.name() + options.albedo.name();
+    if (layout != made_for_) target_ = Framebuffer(options.attachments(), frame.size());
+    made_for_ = layout;
+    target_.resize(frame.size());
+    const std::vector<Draw> ready =
+        withPrograms(shaders_, draws, "06_gbuffer/geometry", options.defines() + material);
+    frame.pass(pass, target_,
+               {.program = *ready.front().program,
+                .uniforms = {{"clip_from_world", view.clip_from_view * view.view_from_world}},
+                .part = {.uniforms = {{"view_z_from_world", glm::row(view.view_from_world, 2)}}},
+                .draws = ready,
+                .depth_test = DepthTest::less,
+                .srgb_encode = options.albedo == "srgb",
+                .clear_color = glm::vec4(0),
+                .clear_depth = 1.0F});
+}
+// end excerpt
+
+glm::vec2 viewZFromDepth(const glm::mat4& clip_from_view) {
+    return {-0.5F * clip_from_view[3][2], 0.5F * (clip_from_view[2][2] - 1)};
+}
+
+ShaderPart GBuffer::part(const View& view, const GBufferOptions& options) const {
+    const glm::mat3 world_from_view = glm::transpose(glm::mat3(view.view_from_world));
+    const glm::vec2 scale(view.clip_from_view[0][0], view.clip_from_view[1][1]);
+    ShaderPart part = {
+        .defines = options.defines(),
+        .uniforms = {{"camera_position", view.camera_position},
+                     {"view_z_from_depth", viewZFromDepth(view.clip_from_view)},
+                     {"world_from_ray", glm::mat3(world_from_view[0] / scale.x, world_from_view[1] / scale.y,
+                                                  -world_from_view[2])},
+                     {"view_from_world", view.view_from_world},
+                     {"view_from_ndc", 1.0F / scale},
+                     {"material_shininess", palette_shininess}}};
+    for (const Attachment& attachment : target_.attachments())
+        part.inputs.push_back({attachment.name + "_map", target_[attachment.name]});
+    return part;
+}
+
+} // namespace gll::gbuffer
