@@ -13,6 +13,7 @@ enum class Format {
     rgb10_a2,
     r16,
     rg16,
+    rgba16,
     r11f_g11f_b10f,
     r16f,
     rg16f,
@@ -53,6 +54,8 @@ constexpr FormatInfo formatInfo(Format format) {
         return {"r16", GL_R16, GL_RED, GL_FLOAT, 1, 2, false, false};
     case Format::rg16:
         return {"rg16", GL_RG16, GL_RG, GL_FLOAT, 2, 4, false, false};
+    case Format::rgba16:
+        return {"rgba16", GL_RGBA16, GL_RGBA, GL_FLOAT, 4, 8, false, false};
     case Format::r11f_g11f_b10f:
         return {"r11f_g11f_b10f", GL_R11F_G11F_B10F, GL_RGB, GL_FLOAT, 3, 4, true, false};
     case Format::r16f:

@@ -5,6 +5,8 @@
 #define STORES_POSITION (POSITIONS == POSITIONS_RGBA32F || POSITIONS == POSITIONS_RGBA16F)
 #define STORES_VIEW_Z (POSITIONS == POSITIONS_LINEAR)
 
+#define IS_PACKED (PACKING == PACKING_RGBA16)
+
 #if NORMALS == NORMALS_OCT16
 #define OCTAHEDRAL_STEPS 65535.0 // codes of either number, less one
 #elif NORMALS == NORMALS_OCT12
@@ -119,3 +121,43 @@ vec2 unpackSpecular(float packed_specular) {
     return vec2((code - (specular_steps + 1.0) * upper) * (max_specular / specular_steps), upper);
 }
 // end excerpt
+
+#if IS_PACKED
+// excerpt: pack_surface
+// All but the position in four channels of 16 bits, as two words of 32:
+//   albedo, the square root of each channel: 9 9 9; specular intensity: 5 of 7     bits 0 to 31
+//   normal, octahedral: 11 11; specular intensity: 2 of 7; logarithm of gloss: 8   bits 0 to 31
+// Nine bits of albedo, as eight show bands where the sun is bright.
+uint codeOf(float value, float steps) { return uint(clamp(value, 0.0, 1.0) * steps + 0.5); }
+float valueOf(uint word, int shift, uint steps) { return float((word >> shift) & steps) / float(steps); }
+
+vec4 packSurface(vec3 albedo, float specular, vec3 normal, float shininess) {
+    vec3 root = sqrt(albedo);
+    uint specular_code = codeOf(specular / max_specular, 127.0);
+    uint gloss_code = codeOf(log2(shininess) / log2_max_shininess, 255.0);
+    vec2 octahedral = nearestOctahedral(normal, 2047.0);
+    uint first = codeOf(root.r, 511.0) | codeOf(root.g, 511.0) << 9 | codeOf(root.b, 511.0) << 18 |
+                 (specular_code & 31u) << 27;
+    uint second = codeOf(octahedral.x, 2047.0) | codeOf(octahedral.y, 2047.0) << 11 | (specular_code >> 5) << 22 |
+                  gloss_code << 24;
+    return vec4(first & 65535u, first >> 16, second & 65535u, second >> 16) / 65535.0;
+}
+
+uvec2 wordsOf(vec4 stored) {
+    uvec4 codes = uvec4(stored * 65535.0 + 0.5);
+    return uvec2(codes.r | codes.g << 16, codes.b | codes.a << 16);
+}
+
+vec3 packedAlbedo(uvec2 words) {
+    vec3 root = vec3(valueOf(words.x, 0, 511u), valueOf(words.x, 9, 511u), valueOf(words.x, 18, 511u));
+    return root * root;
+}
+vec3 packedNormal(uvec2 words) {
+    return directionFromOctahedral(vec2(valueOf(words.y, 0, 2047u), valueOf(words.y, 11, 2047u)));
+}
+float packedSpecular(uvec2 words) {
+    return float(words.x >> 27 | (words.y >> 22 & 3u) << 5) * (max_specular / 127.0);
+}
+float packedShininess(uvec2 words) { return exp2(valueOf(words.y, 24, 255u) * log2_max_shininess); }
+// end excerpt
+#endif

@@ -33,13 +33,19 @@ uniform float shininess;        // exponent of the Blinn highlight
 uniform float normal_strength;  // factor on the normal map's x and y
 uniform float material;         // 0: mesh, 1: floor
 
+#if IS_PACKED
+layout(location = 0) out vec4 packed_out;
+#define FIRST_FREE 1
+#else
 layout(location = 0) out vec4 albedo_out;
 layout(location = 1) out vec4 normal_out;
+#define FIRST_FREE 2
+#endif
 #if STORES_POSITION
-layout(location = 2) out vec4 position_out;
+layout(location = FIRST_FREE) out vec4 position_out;
 #elif STORES_VIEW_Z
 uniform vec4 view_z_from_world; // of a world position, w 1
-layout(location = 2) out float view_z_out;
+layout(location = FIRST_FREE) out float view_z_out;
 #endif
 #if GLOSS_IN == GLOSS_IN_TARGET
 #if STORES_VIEW_Z
@@ -91,8 +97,28 @@ vec3 seenNormal(vec3 normal) {
     return normal;
 }
 
+#if SPECULAR_AA
+// excerpt: specular_aa
+// Where normals turn within a pixel, its highlight is a wider one. Kaplanyan et al. 2016, "Filtering Distributions of
+// Normals for Shading Antialiasing", as Tokuyoshi and Kaplanyan 2019 simplified it; with 2 / (n + 2) for the squared
+// roughness of Blinn's exponent n (Walter et al. 2007).
+float widenedShininess(vec3 normal) {
+    const float pixel_variance = 0.15; // of a Gaussian as wide as a pixel
+    const float most = 0.2;            // what is added at most, so that curved silhouettes stay glossy
+    vec3 normal_dx = dFdx(normal);
+    vec3 normal_dy = dFdy(normal);
+    float added = min(2.0 * pixel_variance * (dot(normal_dx, normal_dx) + dot(normal_dy, normal_dy)), most);
+    float squared_roughness = min(2.0 / (shininess + 2.0) + added, 1.0);
+    return max(2.0 / squared_roughness - 2.0, 1.0);
+}
+// end excerpt
+#else
+float widenedShininess(vec3 normal) { return shininess; }
+#endif
+
+// Code 128 is zero: of 256 codes none is in the middle, and 127.5 for zero would tilt flat maps by a third of a degree.
 vec3 tangentNormal(vec3 texel) {
-    vec3 n = texel * 2.0 - 1.0;
+    vec3 n = (texel * 255.0 - 128.0) / 127.0;
     n.xy *= normal_strength;
     return n * inversesqrt(max(dot(n, n), 1e-8));
 }
@@ -141,11 +167,16 @@ void main() {
     vec3 albedo = albedoFrom(base.rgb) * tint() * mix(occluded_albedo, 1.0, base.a);
     float specular = (1.0 - surface.a) * specular_scale;
     vec3 normal = perturbedNormal(seenNormal(normalize(world_normal)), tangentNormal(surface.rgb));
+    float width = widenedShininess(normal);
     cutHoles();
 
-    float gloss = packGloss(shininess);
+#if IS_PACKED
+    packed_out = packSurface(albedo, specular, normal, width);
+#else
+    float gloss = packGloss(width);
     albedo_out = vec4(albedo, specular);
     normal_out = packNormal(normal);
+#endif
 #if STORES_POSITION
     position_out = vec4(world_position, 1.0 + material);
 #elif STORES_VIEW_Z
@@ -159,9 +190,9 @@ void main() {
     position_out.a = GLOSS == GLOSS_FLOAT ? gloss : 1.0 + gloss; // 0 is the background's
 #elif GLOSS_IN == GLOSS_IN_TARGET
     gloss_out = gloss;
-#elif GLOSS == GLOSS_PALETTE
+#elif GLOSS_IN == GLOSS_IN_ALBEDO_ALPHA && GLOSS == GLOSS_PALETTE
     albedo_out.a = packSpecular(specular, material);
-#else
+#elif GLOSS_IN == GLOSS_IN_ALBEDO_ALPHA
     albedo_out.a = packSpecular(specular, gloss * 15.0);
 #endif
 }

@@ -1,8 +1,12 @@
 // Reading the G-buffer back: what is there at a place of the screen, whatever layout it has.
 #include "06_gbuffer/gbuffer.glsl"
 
+#if IS_PACKED
+uniform sampler2D packed_map;
+#else
 uniform sampler2D albedo_map;
 uniform sampler2D normal_map;
+#endif
 #if STORES_POSITION
 uniform sampler2D position_map;
 #else
@@ -18,7 +22,7 @@ uniform mat3 world_from_ray;    // (ndc x, ndc y, 1) to the world vector from th
 #if GLOSS_IN == GLOSS_IN_TARGET
 uniform sampler2D gloss_map;
 #endif
-#if GLOSS == GLOSS_PALETTE
+#if GLOSS_IN == GLOSS_IN_ALBEDO_ALPHA && GLOSS == GLOSS_PALETTE
 uniform vec2 material_shininess; // of materials 0 and 1
 #endif
 
@@ -45,9 +49,26 @@ vec4 positionAt(vec2 uv) {
 #endif
 // end excerpt
 
-vec3 normalAt(vec2 uv) { return unpackNormal(textureLod(normal_map, uv, 0.0)); }
-
 // Of a place that is not background.
+#if IS_PACKED
+vec3 normalAt(vec2 uv) { return packedNormal(wordsOf(textureLod(packed_map, uv, 0.0))); }
+vec3 albedoAt(vec2 uv) { return packedAlbedo(wordsOf(textureLod(packed_map, uv, 0.0))); }
+
+Surface surfaceAt(vec2 uv, vec4 position) {
+    uvec2 words = wordsOf(textureLod(packed_map, uv, 0.0));
+    Surface surface;
+    surface.albedo = packedAlbedo(words);
+    surface.specular = packedSpecular(words);
+    surface.world_normal = packedNormal(words);
+    surface.shininess = packedShininess(words);
+    surface.world_position = position.xyz;
+    surface.material = 0.0;
+    return surface;
+}
+#else
+vec3 normalAt(vec2 uv) { return unpackNormal(textureLod(normal_map, uv, 0.0)); }
+vec3 albedoAt(vec2 uv) { return textureLod(albedo_map, uv, 0.0).rgb; }
+
 Surface surfaceAt(vec2 uv, vec4 position) {
     vec4 albedo = textureLod(albedo_map, uv, 0.0);
     vec4 normal = textureLod(normal_map, uv, 0.0);
@@ -81,3 +102,4 @@ Surface surfaceAt(vec2 uv, vec4 position) {
 #endif
     return surface;
 }
+#endif

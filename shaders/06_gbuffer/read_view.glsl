@@ -2,7 +2,11 @@
 #include "06_gbuffer/gbuffer.glsl"
 
 uniform mat4 view_from_world;
+#if IS_PACKED
+uniform sampler2D packed_map;
+#else
 uniform sampler2D normal_map;
+#endif
 #if STORES_POSITION
 uniform sampler2D position_map;
 #else
@@ -50,5 +54,17 @@ vec3 viewPositionAt(vec2 uv) {
 #endif
 
 vec3 viewNormalAt(vec2 uv) {
+#if IS_PACKED
+    return mat3(view_from_world) * packedNormal(wordsOf(textureLod(packed_map, uv, 0.0)));
+#else
     return mat3(view_from_world) * unpackNormal(textureLod(normal_map, uv, 0.0));
+#endif
+}
+
+ivec2 gbufferSize() {
+#if IS_PACKED
+    return textureSize(packed_map, 0);
+#else
+    return textureSize(normal_map, 0);
+#endif
 }

@@ -5,7 +5,7 @@
 uniform sampler2D ssao_map;
 #endif
 
-vec3 showAlbedo(vec2 uv) { return textureLod(albedo_map, uv, 0.0).rgb; }
+vec3 showAlbedo(vec2 uv) { return albedoAt(uv); }
 
 vec3 showNormal(vec2 uv) {
     if (positionAt(uv).w == 0.0) return vec3(0.5);

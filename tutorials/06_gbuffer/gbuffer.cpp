@@ -7,7 +7,11 @@ namespace gll::gbuffer {
 
 // excerpt: settings
 GBufferOptions::GBufferOptions(Settings& settings)
-    : normals(settings.choice(
+    : packing(settings.choice(
+          "packing", "separate", {"separate", "rgba16"},
+          "a target for each of normals, albedo and the like; or all but the position in the 64 "
+          "bits of one")),
+      normals(settings.choice(
           "normals", "rgba16f", {"rgba32f", "rgba16f", "rgb10", "rgb8", "oct16", "oct12", "oct10", "oct8"},
           "what holds normals: x, y and z in a format; or two octahedral numbers of so many bits")),
       precise(settings.toggle("precise", false,
@@ -22,13 +26,14 @@ GBufferOptions::GBufferOptions(Settings& settings)
       albedo(settings.choice("albedo", "linear", {"float", "linear", "srgb"},
                              "how albedo is stored: 32-bit floats; 8 bits, which have bands in the dark; 8 "
                              "bits of sRGB")) {
-    settings.shared("06_gbuffer", {"normals", "precise", "positions", "gloss", "albedo"});
+    settings.shared("06_gbuffer", {"packing", "normals", "precise", "positions", "gloss", "albedo"});
 }
 // end excerpt
 
 // excerpt: gloss_place
 // Where a channel is left over that can hold it, it costs nothing.
 GlossPlace GBufferOptions::glossPlace() const {
+    if (packing == "rgba16") return GlossPlace::packed;
     const bool in_bits = !(gloss == "float") && !(gloss == "palette");
     if (gloss == "palette") return GlossPlace::albedo_alpha; // one bit of the specular intensity's eight
     if (normals == "rgba32f" || normals == "rgba16f") return GlossPlace::normal_alpha;
@@ -48,20 +53,24 @@ std::vector<Attachment> GBufferOptions::attachments() const {
             if (choice == name) return value;
         return Format::depth24; // beside positions that are stored
     };
-    std::vector<Attachment> attachments = {
-        {.name = "albedo",
-         .format =
-             format(albedo,
-                    {{"float", Format::rgba32f}, {"linear", Format::rgba8}, {"srgb", Format::srgb8_alpha8}})},
-        {.name = "normal",
-         .format = format(normals, {{"rgba32f", Format::rgba32f},
-                                    {"rgba16f", Format::rgba16f},
-                                    {"rgb10", Format::rgb10_a2},
-                                    {"rgb8", Format::rgba8},
-                                    {"oct16", Format::rg16},
-                                    {"oct12", Format::rgba8}, // three bytes hold both, see gbuffer.glsl
-                                    {"oct10", Format::rgb10_a2},
-                                    {"oct8", Format::rg8}})}};
+    std::vector<Attachment> attachments;
+    if (packing == "rgba16")
+        attachments = {{.name = "packed", .format = Format::rgba16}};
+    else
+        attachments = {
+            {.name = "albedo",
+             .format = format(
+                 albedo,
+                 {{"float", Format::rgba32f}, {"linear", Format::rgba8}, {"srgb", Format::srgb8_alpha8}})},
+            {.name = "normal",
+             .format = format(normals, {{"rgba32f", Format::rgba32f},
+                                        {"rgba16f", Format::rgba16f},
+                                        {"rgb10", Format::rgb10_a2},
+                                        {"rgb8", Format::rgba8},
+                                        {"oct16", Format::rg16},
+                                        {"oct12", Format::rgba8}, // three bytes hold both, see gbuffer.glsl
+                                        {"oct10", Format::rgb10_a2},
+                                        {"oct8", Format::rg8}})}};
     if (storesPosition())
         attachments.push_back(
             {.name = "position", .format = positions == "rgba32f" ? Format::rgba32f : Format::rgba16f});
@@ -78,11 +87,14 @@ std::vector<Attachment> GBufferOptions::attachments() const {
 // end excerpt
 
 Defines GBufferOptions::defines() const {
-    const Defines places = {
-        {"GLOSS_IN_NORMAL_ALPHA", "0"},   {"GLOSS_IN_NORMAL_BLUE", "1"},
-        {"GLOSS_IN_POSITION_ALPHA", "2"}, {"GLOSS_IN_ALBEDO_ALPHA", "3"},
-        {"GLOSS_IN_TARGET", "4"},         {"GLOSS_IN", std::to_string(static_cast<int>(glossPlace()))}};
-    return normals.defines() + positions.defines() + gloss.defines() + places +
+    const Defines places = {{"GLOSS_IN_NORMAL_ALPHA", "0"},
+                            {"GLOSS_IN_NORMAL_BLUE", "1"},
+                            {"GLOSS_IN_POSITION_ALPHA", "2"},
+                            {"GLOSS_IN_ALBEDO_ALPHA", "3"},
+                            {"GLOSS_IN_TARGET", "4"},
+                            {"GLOSS_IN_PACKED", "5"},
+                            {"GLOSS_IN", std::to_string(static_cast<int>(glossPlace()))}};
+    return packing.defines() + normals.defines() + positions.defines() + gloss.defines() + places +
            Defines{{"PRECISE", precise ? "1" : "0"}};
 }
 

@@ -25,12 +25,13 @@ struct View {
 };
 
 // Where the exponent of a surface's highlight is stored, which no format has a place of its own for.
-enum class GlossPlace { normal_alpha, normal_blue, position_alpha, albedo_alpha, target };
+enum class GlossPlace { normal_alpha, normal_blue, position_alpha, albedo_alpha, target, packed };
 
 struct GBufferOptions {
     // Declares the settings. Every rung but 06 shares them.
     explicit GBufferOptions(Settings& settings);
 
+    Choice packing;
     Choice normals;
     Toggle precise;
     Choice positions;

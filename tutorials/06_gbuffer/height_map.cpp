@@ -18,7 +18,7 @@ bool looksLikeNormalMap(const Image& image) {
     std::size_t directions = 0;
     for (std::size_t i = 0; i < pixels; ++i) {
         const std::uint8_t* c = bytes->data() + i * channels;
-        const glm::vec3 n = glm::vec3(c[0], c[1], c[2]) / 127.5F - 1.0F;
+        const glm::vec3 n = glm::vec3(c[0], c[1], c[2]) / 127.0F - 128.0F / 127.0F;
         const bool is_grey = std::max({c[0], c[1], c[2]}) - std::min({c[0], c[1], c[2]}) < 16;
         if (!is_grey && n.z > 0.0F && std::abs(glm::length(n) - 1.0F) < 0.2F) ++directions;
     }
@@ -44,7 +44,7 @@ std::vector<std::uint8_t> normalsFromHeights(const Image& image, int channel, fl
                                          (height(x, y + 1) - height(x, y - 1)) / 2.0F, // up the image
                                          1.0F));
             for (int c = 0; c < 3; ++c)
-                normals.push_back(static_cast<std::uint8_t>(std::lround((normal[c] * 0.5F + 0.5F) * 255.0F)));
+                normals.push_back(static_cast<std::uint8_t>(std::lround(normal[c] * 127.0F + 128.0F)));
         }
     return normals;
 }

@@ -135,9 +135,11 @@ SceneOptions::SceneOptions(Settings& settings)
     : texture_filter(settings.choice(
           "texture_filter", "bilinear", {"bilinear", "mipmapped", "anisotropic"},
           "how materials are sampled; anisotropic where the driver offers it, else as mipmapped")),
+      specular_aa(settings.toggle("specular_aa", false,
+                                  "widen highlights by how much normals vary from pixel to pixel")),
       flip_v(settings.toggle("flip_v", false,
                              "turn the model's texture coordinates over: for OBJ files whose v runs down")) {
-    settings.shared("06_gbuffer", {"texture_filter", "flip_v"});
+    settings.shared("06_gbuffer", {"texture_filter", "specular_aa", "flip_v"});
 }
 
 MaterialFilter SceneOptions::filter() const {
@@ -177,7 +179,8 @@ Scene::Scene(const RungResources& resources, float floor_half_width)
                          .normal_strength = 3 * material.normal_scale,
                          .tag = 1,
                          .textures = {}});
-    parts_.push_back({&floor_, surfaces_.size() - 1, 0, 0});
+    floor_surface_ = surfaces_.size() - 1;
+    parts_.push_back({&floor_, floor_surface_, 0, 0});
     // the project's own cat is what the original drew of it
     if (!resources.given.mesh.empty()) warnings_.add(notDrawn(mesh.string()));
 }
@@ -185,6 +188,7 @@ Scene::Scene(const RungResources& resources, float floor_half_width)
 void Scene::add(const PlainObject& object) {
     MaterialData material;
     material.base_color = glm::vec4(object.color, 1);
+    material.roughness = 0; // or the original's rule would take highlights from it
     surfaces_.push_back({.data = material,
                          .occluded_albedo = 1,
                          .specular_scale = object.specular,

@@ -19,10 +19,13 @@ struct SceneOptions {
     explicit SceneOptions(Settings& settings);
 
     Choice texture_filter;
+    Toggle specular_aa;
     Toggle flip_v;
 
     MaterialFilter filter() const;
-    Defines defines() const { return texture_filter.defines(); }
+    Defines defines() const {
+        return texture_filter.defines() + Defines{{"SPECULAR_AA", specular_aa ? "1" : "0"}};
+    }
 };
 
 struct Vertex {
@@ -47,6 +50,7 @@ class Scene {
     explicit Scene(const RungResources& resources, float floor_half_width = 6);
 
     void add(const PlainObject& object);
+    void setFloorShininess(float exponent) { surfaces_[floor_surface_].shininess = exponent; }
 
     // Attributes 0: position, 1: normal, 2: uv, 3: color, 4: second uv; nearest the camera first, so that the
     // depth test spares what is behind. The draws last as long as the scene and until the next call with
@@ -80,6 +84,7 @@ class Scene {
     bool statue_has_colors_ = false;
     bool statue_is_sheet_ = false;
     std::vector<Surface> surfaces_;
+    std::size_t floor_surface_ = 0;
     std::vector<Part> parts_;
 };
 

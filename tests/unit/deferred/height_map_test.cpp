@@ -33,7 +33,7 @@ using Rgb = std::array<int, 3>;
 
 glm::vec3 normalAt(const std::vector<std::uint8_t>& normals, int width, int x, int y) {
     const std::uint8_t* c = &normals[static_cast<std::size_t>((y * width + x) * 3)];
-    return glm::vec3(c[0], c[1], c[2]) / 127.5F - 1.0F;
+    return (glm::vec3(c[0], c[1], c[2]) - 128.0F) / 127.0F;
 }
 
 } // namespace
