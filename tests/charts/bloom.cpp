@@ -441,6 +441,7 @@ class Bench {
 } // namespace
 
 void measureBloomCosts(const fs::path& programs, const fs::path& csv) {
+    requireAllBloomFilters(programs);
     Table table{{"method", "cost_cu"}, {}};
     const std::vector<Method> list = methods();
     for (const std::string rung : {"04_pyramid_bloom", "03_gaussian_bloom"}) {
@@ -475,6 +476,7 @@ void measureBloomCosts(const fs::path& programs, const fs::path& csv) {
 }
 
 void drawBloomCharts(const fs::path& programs, const fs::path& costs_csv, const fs::path& folder) {
+    requireAllBloomFilters(programs);
     const std::vector<Method> list = methods();
     const Costs costs(costs_csv);
     const std::vector<Errors> errors = Bench(programs, list).measure();

@@ -3,9 +3,12 @@
 #pragma once
 
 #include "charts/frames.hpp"
+#include "support/choices.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <glm/vec2.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -86,5 +89,22 @@ inline constexpr Blur gaussian_blurs[] = {
     {"half resolution, 5 taps", "half_resolution_5tap", "the second original of 03"},
     {"mipmap", "mipmap"},
     {"one wide Gaussian", "wide_gaussian"}};
+
+// Throws std::runtime_error where 03 or 04 offers a filter that is in neither list and is not excused here.
+inline void requireAllBloomFilters(const std::filesystem::path& programs) {
+    std::set<std::string> downs, ups, blurs;
+    for (const PyramidPair& pair : pyramid_pairs) {
+        downs.insert(pair.down);
+        ups.insert(pair.up);
+    }
+    for (const Blur& blur : gaussian_blurs)
+        blurs.insert(blur.setting);
+    const std::filesystem::path pyramid = programs / "04_pyramid_bloom";
+    test::requireCovered(pyramid, "down_filter", downs,
+                         {{"13tap_as_printed", "a misprint that adds light at every level"}});
+    test::requireCovered(pyramid, "up_filter", ups,
+                         {{"4tap", "nearly as dear as the tent, and less steady"}});
+    test::requireCovered(programs / "03_gaussian_bloom", "blur", blurs);
+}
 
 } // namespace gll::charts

@@ -4,6 +4,7 @@
 #include "charts/chart.hpp"
 #include "charts/frames.hpp"
 #include "measure/color.hpp"
+#include "support/choices.hpp"
 #include "support/process.hpp"
 
 #include <algorithm>
@@ -167,27 +168,30 @@ struct Reduction {
     double tolerance_ev; // between model and rung
 };
 
-std::vector<Reduction> reductions() {
+std::vector<Reduction> reductions(const fs::path& programs) {
     const auto white = [](double white_point) {
         return [white_point](const Stops& stops) { return mipmapR16(stops, white_point); };
     };
-    return {{"mipmap_r16, white point 0.22",
-             "the original of 02",
-             {{"reduction", "mipmap_r16"}, {"white_point", "0.22"}},
-             white(0.22),
-             0.005},
-            {"mipmap_r16, white point 1024",
-             "",
-             {{"reduction", "mipmap_r16"}, {"white_point", "1024"}},
-             white(1024),
-             0.005},
-            {"mipmap_r16f", "", {{"reduction", "mipmap_r16f"}}, mipmapR16f, 0.02},
-            {"area", "recommended", {{"reduction", "area"}}, areaAverage, 1e-4},
-            {"histogram, all samples",
-             "",
-             {{"reduction", "histogram"}, {"low_percent", "0"}, {"high_percent", "100"}},
-             sampledMean,
-             1e-3}};
+    std::vector<Reduction> list = {
+        {"mipmap_r16, white point 0.22",
+         "the original of 02",
+         {{"reduction", "mipmap_r16"}, {"white_point", "0.22"}},
+         white(0.22),
+         0.005},
+        {"mipmap_r16, white point 1024",
+         "",
+         {{"reduction", "mipmap_r16"}, {"white_point", "1024"}},
+         white(1024),
+         0.005},
+        {"mipmap_r16f", "", {{"reduction", "mipmap_r16f"}}, mipmapR16f, 0.02},
+        {"area", "recommended", {{"reduction", "area"}}, areaAverage, 1e-4},
+        {"histogram, all samples",
+         "",
+         {{"reduction", "histogram"}, {"low_percent", "0"}, {"high_percent", "100"}},
+         sampledMean,
+         1e-3}};
+    test::requireCovered(programs / "02_auto_exposure", "reduction", test::valuesOf(list, "reduction"));
+    return list;
 }
 
 // What a frame shows: the rung's name for it, and its luminance where that needs no rendering.
@@ -339,7 +343,7 @@ struct Errors {
 } // namespace
 
 void measureExposureCosts(const fs::path& programs, const fs::path& costs_csv) {
-    const std::vector<Reduction> list = reductions();
+    const std::vector<Reduction> list = reductions(programs);
     std::vector<Set> sets;
     for (const Reduction& reduction : list) {
         sets.push_back(reduction.set);
@@ -359,7 +363,7 @@ void measureExposureCosts(const fs::path& programs, const fs::path& costs_csv) {
 
 void drawExposureCharts(const fs::path& programs, const fs::path& costs_csv, const fs::path& folder) {
     const Costs costs(costs_csv);
-    const std::vector<Reduction> list = reductions();
+    const std::vector<Reduction> list = reductions(programs);
     const std::vector<glm::ivec2> sizes = frameSizes();
 
     Metered metered(programs / "02_auto_exposure", list);

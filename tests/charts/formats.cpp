@@ -7,7 +7,9 @@
 #include "measure/color.hpp"
 #include "measure/errors.hpp"
 #include "measure/flip.hpp"
+#include "support/choices.hpp"
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,13 @@ const std::vector<StorageFormat> formats = {{"rgba8", 4},
                                             {"rgba16f", 8, "the original of 01, recommended"},
                                             {"rgba32f", 16}};
 
+void requireAllFormats(const fs::path& programs) {
+    std::set<std::string> names;
+    for (const StorageFormat& format : formats)
+        names.insert(format.name);
+    test::requireCovered(programs / "01_hdr", "format", names);
+}
+
 // From linear light to what eight bits hold, 0 to 255.
 ColorImage codes(ColorImage image) {
     for (glm::dvec3& color : image.pixels)
@@ -42,6 +51,7 @@ ColorImage codes(ColorImage image) {
 } // namespace
 
 void measureFormatCosts(const fs::path& programs, const fs::path& costs_csv) {
+    requireAllFormats(programs);
     std::vector<Set> sets;
     for (const StorageFormat& format : formats)
         sets.push_back({{"format", format.name}});
@@ -53,6 +63,7 @@ void measureFormatCosts(const fs::path& programs, const fs::path& costs_csv) {
 }
 
 void drawFormatCharts(const fs::path& programs, const fs::path& costs_csv, const fs::path& folder) {
+    requireAllFormats(programs);
     const Costs costs(costs_csv);
     Frames frames(programs / "01_hdr");
     for (const int ev : exposures_ev)

@@ -5,6 +5,7 @@
 #include "charts/chart.hpp"
 #include "charts/frames.hpp"
 #include "measure/color.hpp"
+#include "support/choices.hpp"
 #include "truth/aces.hpp"
 #include "truth/tone_reference.hpp"
 
@@ -31,14 +32,17 @@ struct Curve {
     }
 };
 
-std::vector<Curve> curves() {
-    std::vector<Curve> list = {{"clamp"}, {"reinhard", 4, "", "the original of 01"}, {"reinhard_luminance"}};
-    for (const int white_point : {1, 2, 4, 8, 16})
-        list.push_back({"reinhard_extended", double(white_point), "white " + std::to_string(white_point)});
-    for (const char* name : {"exposure", "aces_narkowicz", "aces_hill"})
-        list.push_back({name});
-    list.push_back({"pbr_neutral", 4, "", "recommended"});
-    list.push_back({"agx"});
+std::vector<Curve> curves(const fs::path& programs) {
+    std::vector<Curve> list;
+    for (const std::string& name : test::choicesOf(programs / "01_hdr", "tone_map"))
+        if (name == "reinhard_extended")
+            for (const int white_point : {1, 2, 4, 8, 16})
+                list.push_back({name, double(white_point), "white " + std::to_string(white_point)});
+        else
+            list.push_back({name, 4, "",
+                            name == "reinhard"      ? "the original of 01"
+                            : name == "pbr_neutral" ? "recommended"
+                                                    : ""});
     return list;
 }
 
@@ -195,7 +199,7 @@ ToneFigures toneFigures(const std::string& tone_map) {
 void measureToneCosts(const fs::path& programs, const fs::path& costs_csv) {
     std::vector<std::string> names;
     std::vector<Set> sets;
-    for (const Curve& curve : curves())
+    for (const Curve& curve : curves(programs))
         if (names.empty() || names.back() != curve.tone_map) {
             names.push_back(curve.tone_map);
             sets.push_back({{"tone_map", curve.tone_map}});
@@ -213,7 +217,7 @@ void measureToneCosts(const fs::path& programs, const fs::path& costs_csv) {
     writeCsv(costs_csv, table);
 }
 
-void drawToneCharts(const fs::path& /*programs*/, const fs::path& costs_csv, const fs::path& folder) {
+void drawToneCharts(const fs::path& programs, const fs::path& costs_csv, const fs::path& folder) {
     const Costs costs(costs_csv);
     std::vector<glm::dvec3> scene = sweep();
     for (int stop = first_stop; stop <= last_stop; ++stop)
@@ -228,7 +232,7 @@ void drawToneCharts(const fs::path& /*programs*/, const fs::path& costs_csv, con
                  "range EV", "largest output", "18 % grey becomes", "note"},
                 {}};
     std::vector<Point> hue, aces;
-    for (const Curve& curve : curves()) {
+    for (const Curve& curve : curves(programs)) {
         const HueError turned = hueError(by(curve));
         const AcesDistance distance = acesDistance(curve, scene, aces_itp);
         const double instructions = costs.of(curve.tone_map, "instructions_per_pixel");

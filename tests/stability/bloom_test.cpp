@@ -60,9 +60,8 @@ std::vector<Method> karisWeights() {
             {"05_hdr_bloom",
              karis == std::string("none") ? "splines (recommended)" : std::string("splines, karis=") + karis,
              splines + equal_terms + Set{{"karis", karis}}});
-    for (const char* karis : {"none", "average", "texel", "partial"})
-        list.push_back(
-            {"05_hdr_bloom", std::string("5 taps, karis=") + karis, equal_terms + Set{{"karis", karis}}});
+    for (const std::string& karis : test::choicesOf(folders.programs / "05_hdr_bloom", "karis"))
+        list.push_back({"05_hdr_bloom", "5 taps, karis=" + karis, equal_terms + Set{{"karis", karis}}});
     return list;
 }
 
@@ -103,6 +102,7 @@ double areaOf(const ColorImage& bloom, glm::ivec2 size) {
 class BloomStability : public testing::Test {
   protected:
     static void SetUpTestSuite() {
+        charts::requireAllBloomFilters(folders.programs);
         folder = std::make_unique<test::TemporaryFolder>();
         charts::writeExr(*folder / "black.exr", ColorImage(8, 8));
         charts::writeExr(*folder / "grey.exr", ColorImage(8, 8, glm::dvec3(0.5)));

@@ -2,6 +2,7 @@
 // any strength. Mean errors over a thousand sizes are in the charts.
 #include "charts/frames.hpp"
 #include "page_table.hpp"
+#include "support/choices.hpp"
 #include "support/process.hpp"
 
 #include <algorithm>
@@ -71,6 +72,9 @@ class Readings {
 
 class ExposureStability : public testing::Test {
   protected:
+    static void SetUpTestSuite() {
+        test::requireCovered(folders.programs / rung, "reduction", test::valuesOf(reductions, "reduction"));
+    }
     static void TearDownTestSuite() { table.check(); }
 
     static void tell(const Reduction& reduction, const std::string& failure, const std::string& number) {

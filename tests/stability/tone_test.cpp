@@ -4,6 +4,7 @@
 #include "charts/tone.hpp"
 #include "measure/color.hpp"
 #include "page_table.hpp"
+#include "support/choices.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -16,14 +17,11 @@ using charts::decimals;
 using charts::Set;
 
 constexpr const char* hdr_rung = "01_hdr";
-const std::vector<std::string> tone_maps = {
-    "clamp",    "reinhard",       "reinhard_luminance", "reinhard_extended",
-    "exposure", "aces_narkowicz", "aces_hill",          "pbr_neutral",
-    "agx"};
 constexpr const char* recommended = "pbr_neutral";
 
 class ToneStability : public testing::Test {
   protected:
+    static void SetUpTestSuite() { tone_maps = test::choicesOf(folders.programs / hdr_rung, "tone_map"); }
     static void TearDownTestSuite() { table.check(); }
 
     static void tell(const std::string& tone_map, const std::string& failure, const std::string& number) {
@@ -34,6 +32,7 @@ class ToneStability : public testing::Test {
                   failure, number);
     }
 
+    static inline std::vector<std::string> tone_maps;
     static inline PageTable table{hdr_rung};
 };
 

@@ -4,6 +4,7 @@
 #include "rung/capture.hpp"
 #include "rung/context.hpp"
 #include "rung/resources.hpp"
+#include "support/choices.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 #include "tone_reference.hpp"
@@ -249,13 +250,13 @@ TEST_F(MeterTest, whatIsNoFiniteNumberIsLeftOutOrBounded) {
             EXPECT_NEAR(measured(light, reduction), without, 43 * 2 / 256.0) << bad << " " << reduction;
         }
         light.pixels.assign(light.pixels.size(), glm::vec3(not_a_number)); // nothing is left: black
-        for (const char* reduction : {"mipmap_r16", "mipmap_r16f", "area", "histogram"})
+        for (const std::string& reduction : settings.at("reduction").choices)
             EXPECT_NEAR(measured(light, reduction), std::log2(epsilon), 1 / 64.0) << reduction;
     }
 }
 
 TEST_F(MeterTest, whatIsDarkerThanBlackCountsAsBlack) {
-    for (const char* reduction : {"mipmap_r16", "mipmap_r16f", "area", "histogram"}) {
+    for (const std::string& reduction : settings.at("reduction").choices) {
         EXPECT_NEAR(measured({{2, 1}, {glm::vec3(-1), glm::vec3(-1e-9F)}}, reduction), std::log2(epsilon),
                     1 / 64.0) // R16F has steps of 1/64 there
             << reduction;
@@ -408,7 +409,7 @@ class RungTest : public testing::Test {
         for (const int frame : {60, 180, 2, 961, 1140, 999'999, 999'999 - 960, 60, 1, 180})
             all.push_back({"again " + std::to_string(all.size()) + " " + std::to_string(frame), frame});
         for (const char* size : {"101x77", "64x48"})
-            for (const char* reduction : {"mipmap_r16", "mipmap_r16f", "area", "histogram"})
+            for (const std::string& reduction : test::choicesOf(rung_program, "reduction"))
                 all.push_back({std::string(size) + " " + reduction, 60, size, {{"reduction", reduction}}});
         all.push_back({"hdr", 60, "101x77", {}, "hdr"});
         for (const char* pattern : {"black", "flat", "checkerboard", "one_hot", "ramp"})

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -80,15 +81,17 @@ inline glm::dvec3 partialKaris(const Plane& hdr, double x, double y, double at, 
     return sum / weights;
 }
 
+// Throws std::invalid_argument for a Karis weight that is not here.
 inline Plane bright(const Plane& hdr, int width, int height, const std::string& karis, double at,
                     double half_width) {
     return resampled(hdr, width, height, [&](double x, double y) {
         if (karis == "partial") return partialKaris(hdr, x, y, at, half_width);
-        if (karis != "texel") {
+        if (karis == "none" || karis == "average") {
             const glm::dvec3 mean = hdr.sample(x, y);
             const double luma = luminance(mean);
             return mean * brightCurve(luma, at, half_width) / (karis == "average" ? 1 + luma : 1);
         }
+        if (karis != "texel") throw std::invalid_argument("there is no reference for karis=" + karis);
         const int i = static_cast<int>(std::floor(x - 0.5));
         const int j = static_cast<int>(std::floor(y - 0.5));
         glm::dvec3 sum(0);
@@ -110,6 +113,7 @@ struct Tap {
     double x, y, weight;
 };
 
+// Throws std::invalid_argument for one that is not here.
 inline std::vector<Tap> tapsOf(const std::string& filter) {
     std::vector<Tap> taps;
     const auto square = [&](double distance, double weight) { // the four corners of a square
@@ -150,8 +154,10 @@ inline std::vector<Tap> tapsOf(const std::string& filter) {
                 taps.push_back({double(x), double(y), (2 - std::abs(x)) * (2 - std::abs(y)) / 16.0});
     } else if (filter == "4tap up") {
         square(0.5, 1 / 4.0);
-    } else { // box, bilinear
+    } else if (filter == "box" || filter == "bilinear") {
         taps = {{0, 0, 1}};
+    } else {
+        throw std::invalid_argument("there is no reference for the filter " + filter);
     }
     return taps;
 }

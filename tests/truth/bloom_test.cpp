@@ -104,7 +104,7 @@ class Frames {
         for (const std::string filter : up_filters)
             ask("flat up0 " + filter, "96x64", flat + ", " + setting("up_filter", filter), "up0");
         for (const std::string tone_map : hdr::tone_maps)
-            for (const std::string encoding : encodings)
+            for (const std::string encoding : hdr::encodings)
                 ask("frame " + tone_map + " " + encoding, "101x77",
                     setting("tone_map", tone_map) + ", " + setting("encode", encoding), "", ".png");
 
@@ -271,7 +271,7 @@ TEST_F(BloomTruth, thePresentedFrameIsSceneAndBloomToneMappedAndEncoded) {
                                   return bloom.sample(x, y) * intensity;
                               }));
     for (const std::string tone_map : hdr::tone_maps)
-        for (const std::string encoding : encodings) {
+        for (const std::string encoding : hdr::encodings) {
             const Plane actual = frames->read("frame " + tone_map + " " + encoding, ".png");
             double largest = 0;
             for (std::size_t i = 0; i < light.pixels.size(); ++i) {

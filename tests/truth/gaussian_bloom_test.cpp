@@ -5,6 +5,7 @@
 #include "rung/capture.hpp"
 #include "rung/context.hpp"
 #include "rung/resources.hpp"
+#include "support/choices.hpp"
 #include "support/temporary_folder.hpp"
 #include "tone_reference.hpp"
 
@@ -225,6 +226,13 @@ TEST_F(BlurPasses, ofTheMipmapAreTheMeanOfFour) {
 
 // ---- the rung's own frames ----
 
+fs::path rung_program;
+
+TEST(BlurPlans, areThereForEveryBlurThatTheRungOffers) {
+    test::requireCovered(rung_program, "blur", {std::begin(methods), std::end(methods)},
+                         {{"mipmap", "has one width, and a test of its own"}});
+}
+
 // Linear RGB in double.
 struct Plane {
     int width = 0;
@@ -312,8 +320,6 @@ Difference differenceOf(const Plane& actual, const Plane& truth) {
     difference.energy = light / true_light;
     return difference;
 }
-
-fs::path rung_program;
 
 // Everything these tests look at, from one run.
 class GaussianBloomFrames : public testing::Test {

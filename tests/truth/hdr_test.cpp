@@ -2,6 +2,7 @@
 // light.
 #include "01_hdr/tone_map.hpp"
 #include "io/image.hpp"
+#include "support/choices.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 #include "tone_reference.hpp"
@@ -36,8 +37,8 @@ class HdrTruth : public testing::Test {
             lines += line.dump() + "\n";
         };
         const Json none = Json::array();
-        for (const char* format : {"rgba8", "rgb10_a2", "r11f_g11f_b10f", "rgba16f", "rgba32f"})
-            ask(std::string(format) + ".exr", {{"format", format}, {"brightness", 3}}, "hdr", none);
+        for (const std::string& format : test::choicesOf(rung_program, "format"))
+            ask(format + ".exr", {{"format", format}, {"brightness", 3}}, "hdr", none);
         for (const std::string tone_map : hdr::tone_maps) {
             ask(tone_map + ".png", {{"tone_map", tone_map}, {"format", "rgba32f"}, {"brightness", 3}}, "",
                 none);
@@ -121,6 +122,8 @@ TEST_F(HdrTruth, fixedPointClampsAndFloatsKeepTheirShareOfEveryValue) {
     check("rgb10_a2", 1, 1.01 / 1023, 1);
     check("r11f_g11f_b10f", 65024, 65504, 1.01 / 32);
     check("rgba16f", 65504, 65504, 1.01 / 1024);
+    test::requireCovered(rung_program, "format", {"rgba8", "rgb10_a2", "r11f_g11f_b10f", "rgba16f"},
+                         {{"rgba32f", "what the others are compared with"}});
 }
 
 TEST_F(HdrTruth, everyToneMapShowsItsFormulaOfTheSceneLight) {

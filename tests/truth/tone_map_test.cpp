@@ -34,10 +34,7 @@ class ToneMapTest : public testing::Test {
     std::vector<glm::vec3> run(const std::vector<glm::vec3>& colors, const std::string& tone_map,
                                const std::string& encoding = "") {
         Settings settings;
-        const Choice tone =
-            settings.choice("tone_map", tone_map, {std::begin(hdr::tone_maps), std::end(hdr::tone_maps)}, "");
-        const Choice encode = settings.choice("encode", encoding.empty() ? "gamma22" : encoding,
-                                              {std::begin(encodings), std::end(encodings)}, "");
+        const hdr::ToneMapOptions options(settings, tone_map, encoding.empty() ? "gamma22" : encoding);
         const Defines encoded = {{"ENCODED", encoding.empty() ? "0" : "1"}};
         const glm::ivec2 size(static_cast<int>(colors.size()), 1);
         std::vector<float> values;
@@ -45,8 +42,7 @@ class ToneMapTest : public testing::Test {
             values.insert(values.end(), {color.r, color.g, color.b});
         const Texture input({.size = size, .format = Format::rgba32f, .filter = Filter::nearest}, values);
         const Framebuffer target({{"out", Format::rgba32f}}, size);
-        const Program& program =
-            shaders.fullScreen("tone_map.frag", tone.defines() + encode.defines() + encoded);
+        const Program& program = shaders.fullScreen("tone_map.frag", options.defines() + encoded);
         drawPass("tone map", target,
                  {.program = program,
                   .inputs = {{"scene_color", input}},
@@ -64,6 +60,13 @@ class ToneMapTest : public testing::Test {
     Mesh triangle = Mesh::fullScreenTriangle();
     ShaderLibrary shaders;
 };
+
+// Empty, then every encoding.
+std::vector<std::string> withoutAndWithEncodings() {
+    std::vector<std::string> all(hdr::encodings.begin(), hdr::encodings.end());
+    all.insert(all.begin(), "");
+    return all;
+}
 
 // 0, then 1e-7 to 65504 in even steps of the logarithm.
 std::vector<glm::vec3> greyRamp() {
@@ -114,7 +117,7 @@ TEST_F(ToneMapTest, everyCurveIsItsFormula) {
 TEST_F(ToneMapTest, everyEncodingIsItsFormulaBehindEveryCurve) {
     // Measured on llvmpipe, whose pow() is made of polynomials for exp2 and log2: below 3e-7.
     constexpr double bound = 2e-6;
-    for (const std::string encoding : encodings)
+    for (const std::string encoding : hdr::encodings)
         for (const std::string name : hdr::tone_maps) {
             const auto input = greyRamp();
             const auto linear = run(input, name);
@@ -134,7 +137,7 @@ TEST_F(ToneMapTest, moreLightIsNeverDarkerAndDisplayLightStaysInRange) {
     // few.
     constexpr float rounding = 3e-7F;
     for (const std::string name : hdr::tone_maps)
-        for (const std::string encoding : {"", "gamma22", "srgb"}) {
+        for (const std::string& encoding : withoutAndWithEncodings()) {
             const auto output = run(greyRamp(), name, encoding);
             // Where encoded, the slope of the curve near black magnifies what rounding there is.
             const float allowed = !encoding.empty() ? 1e-4F : name == "agx" ? 1e-5F : rounding;
@@ -167,7 +170,7 @@ TEST_F(ToneMapTest, noInputIsTooMuchOrNoNumber) {
         }
     }
     for (const std::string name : hdr::tone_maps)
-        for (const std::string encoding : {"", "gamma22", "srgb"}) {
+        for (const std::string& encoding : withoutAndWithEncodings()) {
             const auto output = run(input, name, encoding);
             for (std::size_t i = 0; i < input.size(); ++i) {
                 glm::dvec3 expected = toneMapped(name, input[i]);

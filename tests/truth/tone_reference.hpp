@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/vec3.hpp>
+#include <stdexcept>
 #include <string>
 
 namespace gll::truth {
@@ -84,7 +85,8 @@ inline glm::dvec3 agx(const glm::dvec3& x) {
     return result;
 }
 
-// A curve by its setting's name. Light outside [0, brightest] is clamped; not-a-number counts as none.
+// A curve by its setting's name; throws std::invalid_argument for one that is not here. Light outside [0,
+// brightest] is clamped; not-a-number counts as none.
 inline glm::dvec3 toneMapped(const std::string& name, const glm::dvec3& scene, double white_point = 4) {
     const glm::dvec3 x = eachChannel(scene, [](double v) { return v > 0 ? std::min(v, brightest) : 0.0; });
     if (name == "clamp") return eachChannel(x, saturated);
@@ -94,18 +96,20 @@ inline glm::dvec3 toneMapped(const std::string& name, const glm::dvec3& scene, d
     if (name == "aces_hill") return acesHill(x);
     if (name == "pbr_neutral") return pbrNeutral(x);
     if (name == "agx") return agx(x);
+    if (name != "reinhard_luminance" && name != "reinhard_extended")
+        throw std::invalid_argument("there is no reference for the tone map " + name);
     const double luminance = luminanceOf(x);
     const double lift = name == "reinhard_extended" ? luminance / (white_point * white_point) : 0;
     return eachChannel(x * ((1 + lift) / (1 + luminance)), saturated); // Reinhard et al. 2002, eq. 3 and 4
 }
 
-// A transfer function by its setting's name: gamma22, or srgb (IEC 61966-2-1).
+// A transfer function by its setting's name: gamma22, or srgb (IEC 61966-2-1). Throws std::invalid_argument
+// for another.
 inline glm::dvec3 encoded(const std::string& name, const glm::dvec3& linear) {
     if (name == "gamma22") return eachChannel(linear, [](double v) { return std::pow(v, 1 / 2.2); });
+    if (name != "srgb") throw std::invalid_argument("there is no reference for the encoding " + name);
     return eachChannel(
         linear, [](double v) { return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055; });
 }
-
-inline constexpr const char* encodings[] = {"gamma22", "srgb"};
 
 } // namespace gll::truth

@@ -14,6 +14,7 @@ inline constexpr std::array tone_maps = {
     "clamp",    "reinhard",       "reinhard_luminance", "reinhard_extended",
     "exposure", "aces_narkowicz", "aces_hill",          "pbr_neutral",
     "agx"};
+inline constexpr std::array encodings = {"gamma22", "srgb"};
 
 struct ToneMapOptions {
     // Declares the settings with a rung's own defaults.
@@ -24,7 +25,7 @@ struct ToneMapOptions {
                                    "from scene light to display light")),
           white_point(settings.number("white_point", default_white_point, 0.01, 65504,
                                       "luminance that becomes white; for reinhard_extended")),
-          encode(settings.choice("encode", default_encode, {"gamma22", "srgb"},
+          encode(settings.choice("encode", default_encode, {encodings.begin(), encodings.end()},
                                  "transfer function for the display")) {
         settings.shared("01_hdr", {"exposure_ev", "tone_map", "white_point", "encode"});
     }
