@@ -1,5 +1,5 @@
-# What tutorials/run, tests/run, tests/bless, tests/fresh and .ci/run share: installing what is missing, configuring,
-# building.
+# What tutorials/run, tutorials/add, tests/run, tests/bless, tests/fresh and .ci/run share: installing what is missing,
+# configuring, building.
 # Sourced by bash, never run. Messages go to stderr, so that a rung's own output can be piped on.
 
 set -euo pipefail

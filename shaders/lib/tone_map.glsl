@@ -101,5 +101,7 @@ vec3 toneMap(vec3 linear_color) {
     return toneMapPbrNeutral(x);
 #elif TONE_MAP == TONE_MAP_AGX
     return toneMapAgx(x);
+#else
+#error TONE_MAP is none of the curves above
 #endif
 }
