@@ -542,20 +542,23 @@ void drawBloomCharts(const fs::path& programs, const fs::path& costs_csv, const 
     writeCsv(folder / "bloom.csv", table);
     const std::string x = "cost, copies (cu)";
     const std::string others = "small: at other widths";
-    const std::string hollow = "hollow: with finest level";
-    drawChart(
-        folder / "bloom_shift.svg",
-        {.title = "Bloom 18 px wide, with and without its finest level: does it depend on the light's place?",
-         .x = x,
-         .y = "shift variance, %",
-         .log_y = true,
-         .floor = 0.1,
-         .log_x = true,
-         .others = others,
-         .hollow = hollow},
-        shift);
+    const std::string hollow = "hollow: finest=on, full: off";
+    const std::string terms = "18 px wide, threshold=0 karis=none normalise=on; ";
+    const std::string costs_at = "cost at 640x360 (Gaussians 320x180)";
+    drawChart(folder / "bloom_shift.svg",
+              {.title = "Bloom: does the glow change with the place of its light?",
+               .subtitle = terms + "square frames; " + costs_at,
+               .x = x,
+               .y = "shift variance, %",
+               .log_y = true,
+               .floor = 0.1,
+               .log_x = true,
+               .others = others,
+               .hollow = hollow},
+              shift);
     drawChart(folder / "bloom_energy.svg",
-              {.title = "Bloom 18 px wide, all without their finest level: is light lost or made?",
+              {.title = "Bloom: is light lost or made, in frames of any size?",
+               .subtitle = "18 px wide, threshold=0 normalise=on finest=off; 18 frame sizes; " + costs_at,
                .x = x,
                .y = "largest energy error, %",
                .log_y = true,
@@ -564,7 +567,8 @@ void drawBloomCharts(const fs::path& programs, const fs::path& costs_csv, const 
                .log_x = true},
               energy);
     drawChart(folder / "bloom_flip.svg",
-              {.title = "Bloom 18 px wide, with and without its finest level, against exact convolution",
+              {.title = "Bloom: what would a person see, against exact convolution?",
+               .subtitle = terms + "frames of 512x384; " + costs_at,
                .x = x,
                .y = "mean HDR-FLIP over three scenes",
                .log_y = true,

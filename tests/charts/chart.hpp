@@ -21,16 +21,16 @@ struct Point {
 
 struct Axes {
     std::string title;
-    std::string x; // with its unit
+    std::string subtitle = {}; // at which frame size and which settings it was measured
+    std::string x;             // with its unit
     std::string y;
     bool log_y = false; // errors of 0 are then drawn at the bottom, as "at most"
     double floor = 0;   // the bottom of a logarithmic axis, > 0 there
     // The dial is what the scene asks for and not for us to choose: a method is judged by its worst.
     bool dial_is_given = false;
     bool log_x = false;      // from the power of ten below the cheapest
-    std::string others = {}; // what points are that do not compete, for the key
-    std::string hollow =
-        {}; // what hollow shapes are, for the key; each method then has its full and its hollow one
+    std::string others = {}; // what points are that do not compete
+    std::string hollow = {}; // what hollow shapes are
 };
 
 // Whether a point competes and no other such is at once as cheap and as accurate, and better in one of the
@@ -40,10 +40,12 @@ std::vector<bool> paretoFront(const std::vector<Point>& points);
 // The same for methods judged by their worst: true at the worst point of each method that no other beats.
 std::vector<bool> worstFront(const std::vector<Point>& points);
 
-// Writes FILE (.svg): methods by the shape of their points, the front black and joined by a step line,
-// dominated points grey; marks are named, and so are the dial's ends where they have room. The same points
-// give the same bytes. Throws std::runtime_error where gnuplot cannot be run, std::invalid_argument without
-// points or for a logarithmic axis without a bottom or with a cost of 0.
+// Writes FILE (.svg) and, for pages shown dark, FILE_dark.svg. A method has one shape and colour, by its
+// place among the points' methods, and is named at one of its points, or in a key where there is no room;
+// marks stand at their points, and so do the dial's ends where they have room. The front is joined by a step
+// line, what lies behind it is paler. The same points give the same bytes. Throws std::runtime_error where
+// gnuplot cannot be run, std::invalid_argument without points or for a logarithmic axis without a bottom or
+// with a cost of 0.
 void drawChart(const std::filesystem::path& file, const Axes& axes, const std::vector<Point>& points);
 
 // A table to write as CSV, numbers in few digits so that the last bit of a float does not change a committed

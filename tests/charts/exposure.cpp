@@ -424,13 +424,15 @@ void drawExposureCharts(const fs::path& programs, const fs::path& costs_csv, con
         }
     }
     writeCsv(folder / "exposure.csv", table);
-    const std::string x = "cost at 1280x720, copies (cu)";
-    drawChart(folder / "exposure_worst.svg",
-              {"Metering: how far off can it be, at any size from 1x1 to 4096x2160?", x, "largest error, EV",
-               true, 1e-6, true},
-              worst);
+    const std::string x = "cost, copies (cu)";
+    const std::string subtitle =
+        "a thousand frame sizes from 1x1 to 4096x2160, four contents, adapt=off; cost at 1280x720";
+    drawChart(
+        folder / "exposure_worst.svg",
+        {"Metering: how far off can the average be?", subtitle, x, "largest error, EV", true, 1e-6, true},
+        worst);
     drawChart(folder / "exposure_mean.svg",
-              {"Metering: how far off is it on average, over a thousand sizes?", x, "mean error, EV", true,
+              {"Metering: how far off is the average, over all sizes?", subtitle, x, "mean error, EV", true,
                1e-6, true},
               mean);
     if (!missed.empty()) throw std::runtime_error("the recommended reduction misses its promise: " + missed);

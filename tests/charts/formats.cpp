@@ -94,14 +94,15 @@ void drawFormatCharts(const fs::path& programs, const fs::path& costs_csv, const
     }
     writeCsv(folder / "formats.csv", table);
     const std::string x = "bytes per pixel";
+    const std::string subtitle = "640x360, tone_map=reinhard, exposure_ev = -5, 0 and 5";
     drawChart(folder / "formats.svg",
-              {"Formats: how far is the shown frame from the 32-bit one?", x, "RMSE, codes of 255", true,
-               0.01, true},
+              {"Formats: how far is the shown frame from the 32-bit one?", subtitle, x, "RMSE, codes of 255",
+               true, 0.01, true},
               rmse);
-    drawChart(
-        folder / "formats_flip.svg",
-        {"Formats: what would a person see, against the 32-bit frame?", x, "mean FLIP", true, 1e-4, true},
-        flip);
+    drawChart(folder / "formats_flip.svg",
+              {"Formats: what would a person see, against the 32-bit frame?", subtitle, x, "mean FLIP", true,
+               1e-4, true},
+              flip);
 }
 
 } // namespace gll::charts

@@ -254,12 +254,15 @@ void drawToneCharts(const fs::path& programs, const fs::path& costs_csv, const f
     table.rows.push_back(film);
     writeCsv(folder / "tone.csv", table);
     const std::string x = "instructions per pixel, over those of clamp";
+    const std::string subtitle =
+        "40 colours, each from 6 stops down to 8 up; cost of the display pass at 640x360";
     drawChart(folder / "tone_hue.svg",
-              {"Tone maps: do colours keep their hue?", x, "mean hue error in ICtCp, degrees"}, hue);
-    drawChart(
-        folder / "tone_aces.svg",
-        {"Tone maps: how near to the ACES film rendering?", x, "mean delta E ITP, each at its best exposure"},
-        aces);
+              {"Tone maps: do colours keep their hue?", subtitle, x, "mean hue error in ICtCp, degrees"},
+              hue);
+    drawChart(folder / "tone_aces.svg",
+              {"Tone maps: how near to the ACES film rendering?", subtitle, x,
+               "mean delta E ITP, each at its best exposure"},
+              aces);
 }
 
 } // namespace gll::charts
