@@ -12,7 +12,8 @@ void enable(GLenum capability, bool on) { on ? glEnable(capability) : glDisable(
 
 void setState(const Framebuffer& target, const Pass& pass) {
     glBindFramebuffer(GL_FRAMEBUFFER, target.id());
-    glViewport(0, 0, target.size().x, target.size().y);
+    const Viewport view = pass.viewport.value_or(Viewport{{0, 0}, target.size()});
+    glViewport(view.corner.x, view.corner.y, view.size.x, view.size.y);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     enable(GL_SCISSOR_TEST, false);
@@ -23,7 +24,8 @@ void setState(const Framebuffer& target, const Pass& pass) {
     glDepthMask(GL_TRUE);
     glDepthFunc(pass.depth_test == DepthTest::less_equal ? GL_LEQUAL : GL_LESS);
     enable(GL_CULL_FACE, pass.cull != Cull::none);
-    glCullFace(GL_BACK);
+    glCullFace(pass.cull == Cull::front ? GL_FRONT : GL_BACK);
+    enable(GL_DEPTH_CLAMP, pass.depth_clamp);
     glFrontFace(GL_CCW);
     enable(GL_BLEND, pass.blend != Blend::replace);
     glBlendEquation(GL_FUNC_ADD);
@@ -63,7 +65,7 @@ class Bindings {
         for (const Input& input : from.part.inputs)
             if (uses(program_, input.sampler)) set(input);
         for (const UniformSetting& uniform : from.part.uniforms)
-            if (uses(program_, uniform.name)) set(uniform);
+            if (uses(program_, uniform.name)) set(shortened(uniform));
         for (const Input& input : from.inputs)
             set(input);
         for (const UniformSetting& uniform : from.uniforms)
@@ -83,6 +85,18 @@ class Bindings {
         glBindTexture(GL_TEXTURE_2D, input.texture->id());
         program_.set(input.sampler, unit);
         given_.insert(input.sampler);
+    }
+    // A part's list without the elements at its end that this variant does not use, which the compiler has
+    // removed.
+    UniformSetting shortened(UniformSetting uniform) const {
+        const auto most = static_cast<std::size_t>(program_.uniforms().find(uniform.name)->second.count);
+        std::visit(
+            [&](auto& value) {
+                if constexpr (requires { value.resize(most); })
+                    if (value.size() > most) value.resize(most);
+            },
+            uniform.value);
+        return uniform;
     }
     void set(const UniformSetting& uniform) {
         program_.set(uniform.name, uniform.value);

@@ -37,7 +37,7 @@ struct ShaderPart {
 ShaderPart operator+(ShaderPart one, const ShaderPart& other);
 
 enum class DepthTest { off, less, less_equal }; // on: depth is also written
-enum class Cull { none, back };
+enum class Cull { none, back, front };
 enum class Blend { replace, add }; // add: destination + source (ONE, ONE)
 
 // One draw call of a pass that has several: its mesh (or a piece of it) and what it sets over the pass's own
@@ -50,6 +50,12 @@ struct Draw {
     std::uint32_t first_index = 0;
     std::uint32_t index_count = 0;    // 0: to the end of the mesh
     const Program* program = nullptr; // null: the pass's
+};
+
+// A rectangle of a target, pixels from the lower left.
+struct Viewport {
+    glm::ivec2 corner{0};
+    glm::ivec2 size{1};
 };
 
 struct Pass {
@@ -68,6 +74,9 @@ struct Pass {
         {};                                    // slope factor and constant units, as glPolygonOffset has them
     std::optional<glm::vec4> clear_color = {}; // every colour attachment, before drawing
     std::optional<float> clear_depth = {};
+    std::optional<Viewport> viewport =
+        {};                        // drawn to, and no other; the whole target. Clears are of all of it
+    bool depth_clamp = false;      // what lies before the near plane or behind the far one is drawn on it
     bool generate_mipmaps = false; // of every mipmapped attachment, from what was drawn; see Texture
 };
 

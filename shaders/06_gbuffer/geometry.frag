@@ -34,25 +34,22 @@ uniform float normal_strength;  // factor on the normal map's x and y
 uniform float material;         // 0: mesh, 1: floor
 
 #if IS_PACKED
-layout(location = 0) out vec4 packed_out;
-#define FIRST_FREE 1
+layout(location = LOCATION_PACKED) out vec4 packed_out;
 #else
-layout(location = 0) out vec4 albedo_out;
-layout(location = 1) out vec4 normal_out;
-#define FIRST_FREE 2
+layout(location = LOCATION_ALBEDO) out vec4 albedo_out;
+layout(location = LOCATION_NORMAL) out vec4 normal_out;
 #endif
 #if STORES_POSITION
-layout(location = FIRST_FREE) out vec4 position_out;
+layout(location = LOCATION_POSITION) out vec4 position_out;
 #elif STORES_VIEW_Z
 uniform vec4 view_z_from_world; // of a world position, w 1
-layout(location = FIRST_FREE) out float view_z_out;
+layout(location = LOCATION_VIEW_Z) out float view_z_out;
 #endif
 #if GLOSS_IN == GLOSS_IN_TARGET
-#if STORES_VIEW_Z
-layout(location = 3) out float gloss_out;
-#else
-layout(location = 2) out float gloss_out;
+layout(location = LOCATION_GLOSS) out float gloss_out;
 #endif
+#if STORES_GEOMETRIC
+layout(location = LOCATION_GEOMETRIC) out vec2 geometric_out;
 #endif
 
 // Images are sRGB. Without mip levels the seed's power does; where levels are averaged it must be done in linear
@@ -168,6 +165,10 @@ void main() {
     float specular = (1.0 - surface.a) * specular_scale;
     vec3 normal = perturbedNormal(seenNormal(normalize(world_normal)), tangentNormal(surface.rgb));
     float width = widenedShininess(normal);
+#if STORES_GEOMETRIC
+    // the triangle's own plane, whatever normals were smoothed over its corners
+    geometric_out = octahedralFromDirection(normalize(cross(dFdx(world_position), dFdy(world_position))));
+#endif
     cutHoles();
 
 #if IS_PACKED

@@ -3,9 +3,14 @@
 
 #if IS_PACKED
 uniform sampler2D packed_map;
+vec2 gbufferSize() { return vec2(textureSize(packed_map, 0)); }
 #else
 uniform sampler2D albedo_map;
 uniform sampler2D normal_map;
+vec2 gbufferSize() { return vec2(textureSize(normal_map, 0)); }
+#endif
+#if STORES_GEOMETRIC
+uniform sampler2D geometric_map;
 #endif
 #if STORES_POSITION
 uniform sampler2D position_map;
@@ -45,6 +50,29 @@ vec4 positionAt(vec2 uv) {
     float view_z = viewZAt(uv);
     vec3 ray = world_from_ray * vec3(uv * 2.0 - 1.0, 1.0);
     return vec4(camera_position - view_z * ray, view_z < 0.0 ? 1.0 : 0.0);
+}
+#endif
+// end excerpt
+
+// excerpt: geometric_normal
+#if STORES_GEOMETRIC
+vec3 geometricNormalAt(vec2 uv, vec3 world_position) {
+    return directionFromOctahedral(textureLod(geometric_map, uv, 0.0).rg);
+}
+#else
+// The normal of the surface itself, without its normal map, from the positions beside it: in either direction from the
+// neighbour that is nearer, which most likely lies on the same surface. As exact as the stored positions are, and wrong
+// where a surface is one pixel wide.
+vec3 geometricNormalAt(vec2 uv, vec3 world_position) {
+    vec2 texel = 1.0 / gbufferSize();
+    vec3 left = world_position - positionAt(uv - vec2(texel.x, 0.0)).xyz;
+    vec3 right = positionAt(uv + vec2(texel.x, 0.0)).xyz - world_position;
+    vec3 below = world_position - positionAt(uv - vec2(0.0, texel.y)).xyz;
+    vec3 above = positionAt(uv + vec2(0.0, texel.y)).xyz - world_position;
+    vec3 across = dot(left, left) < dot(right, right) ? left : right;
+    vec3 up = dot(below, below) < dot(above, above) ? below : above;
+    vec3 normal = cross(across, up); // towards the camera, as x, y and it are right-handed
+    return normal * inversesqrt(max(dot(normal, normal), 1e-30));
 }
 #endif
 // end excerpt

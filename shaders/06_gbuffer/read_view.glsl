@@ -4,8 +4,10 @@
 uniform mat4 view_from_world;
 #if IS_PACKED
 uniform sampler2D packed_map;
+vec2 gbufferSize() { return vec2(textureSize(packed_map, 0)); }
 #else
 uniform sampler2D normal_map;
+vec2 gbufferSize() { return vec2(textureSize(normal_map, 0)); }
 #endif
 #if STORES_POSITION
 uniform sampler2D position_map;
@@ -58,13 +60,5 @@ vec3 viewNormalAt(vec2 uv) {
     return mat3(view_from_world) * packedNormal(wordsOf(textureLod(packed_map, uv, 0.0)));
 #else
     return mat3(view_from_world) * unpackNormal(textureLod(normal_map, uv, 0.0));
-#endif
-}
-
-ivec2 gbufferSize() {
-#if IS_PACKED
-    return textureSize(packed_map, 0);
-#else
-    return textureSize(normal_map, 0);
 #endif
 }

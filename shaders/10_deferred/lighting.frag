@@ -46,8 +46,17 @@ float blinnLight(Surface surface, vec3 to_light, vec3 to_camera) {
 // end excerpt
 
 #if SUN
+float visibleSun(Surface surface) {
+#if BIAS_BY_GEOMETRY
+    vec3 normal = geometricNormalAt(uv, surface.world_position);
+#else
+    vec3 normal = surface.world_normal;
+#endif
+    return sunVisible(surface.world_position, normal, to_sun);
+}
+
 vec3 sunLight(Surface surface, vec3 to_camera) {
-    return sun_color * (blinnLight(surface, to_sun, to_camera) * sunVisible(surface.world_position, surface.world_normal, to_sun));
+    return sun_color * (blinnLight(surface, to_sun, to_camera) * visibleSun(surface));
 }
 #endif
 
@@ -115,6 +124,16 @@ float visibilityAt(vec3 world_position) {
 vec3 litColor(Surface surface, float visibility) {
     vec3 to_camera = normalize(camera_position - surface.world_position);
     vec3 light = vec3(0.0);
+// one term alone, for a look at it
+#if VIEW == VIEW_SUN && SUN
+    return vec3(visibleSun(surface));
+#elif VIEW == VIEW_AMBIENT && ENVIRONMENT
+    return ambientLight(surface.world_normal) * visibility;
+#elif VIEW == VIEW_REFLECTED && ENVIRONMENT
+    return reflectedLight(surface, to_camera) * visibility;
+#elif VIEW == VIEW_SUN || VIEW == VIEW_AMBIENT || VIEW == VIEW_REFLECTED
+    return light;
+#endif
 #if SUN
     light += sunLight(surface, to_camera);
 #endif

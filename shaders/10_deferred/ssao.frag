@@ -112,7 +112,7 @@ float visibilityAt(vec2 uv, vec3 view_position, vec3 view_normal, float turn) {
 #endif
 
 void main() {
-    vec2 uv = (floor(gl_FragCoord.xy) * float(pixel_step) + 0.5) / vec2(gbufferSize());
+    vec2 uv = (floor(gl_FragCoord.xy) * float(pixel_step) + 0.5) / gbufferSize();
     vec3 view_position = viewPositionAt(uv);
     float visible = 1.0;
     if (view_position.z > background_view_z)

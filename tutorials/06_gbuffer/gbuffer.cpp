@@ -25,8 +25,13 @@ GBufferOptions::GBufferOptions(Settings& settings)
                             "of two materials it is")),
       albedo(settings.choice("albedo", "linear", {"float", "linear", "srgb"},
                              "how albedo is stored: 32-bit floats; 8 bits, which have bands in the dark; 8 "
-                             "bits of sRGB")) {
-    settings.shared("06_gbuffer", {"packing", "normals", "precise", "positions", "gloss", "albedo"});
+                             "bits of sRGB")),
+      geometric(
+          settings.toggle("geometric", false,
+                          "store the normal of the surface without its normal map too, 4 bytes; else it is "
+                          "found from positions side by side")) {
+    settings.shared("06_gbuffer",
+                    {"packing", "normals", "precise", "positions", "gloss", "albedo", "geometric"});
 }
 // end excerpt
 
@@ -77,6 +82,7 @@ std::vector<Attachment> GBufferOptions::attachments() const {
     if (positions == "linear") attachments.push_back({.name = "view_z", .format = Format::r32f});
     if (glossPlace() == GlossPlace::target)
         attachments.push_back({.name = "gloss", .format = gloss == "float" ? Format::r16f : Format::r8});
+    if (geometric) attachments.push_back({.name = "geometric", .format = Format::rg16});
     attachments.push_back(
         {.name = "depth",
          .format = format(positions, {{"depth16", Format::depth16}, {"depth32f", Format::depth32f}})});
@@ -86,7 +92,18 @@ std::vector<Attachment> GBufferOptions::attachments() const {
 }
 // end excerpt
 
+// Names in capitals, for #if.
+std::string inCapitals(std::string name) {
+    for (char& letter : name)
+        if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
+    return name;
+}
+
 Defines GBufferOptions::defines() const {
+    Defines locations; // LOCATION_NORMAL and so on
+    const std::vector<Attachment> targets = attachments();
+    for (std::size_t i = 0; i + 1 < targets.size(); ++i) // depth is the last
+        locations.push_back({"LOCATION_" + inCapitals(targets[i].name), std::to_string(i)});
     const Defines places = {{"GLOSS_IN_NORMAL_ALPHA", "0"},
                             {"GLOSS_IN_NORMAL_BLUE", "1"},
                             {"GLOSS_IN_POSITION_ALPHA", "2"},
@@ -95,7 +112,7 @@ Defines GBufferOptions::defines() const {
                             {"GLOSS_IN_PACKED", "5"},
                             {"GLOSS_IN", std::to_string(static_cast<int>(glossPlace()))}};
     return packing.defines() + normals.defines() + positions.defines() + gloss.defines() + places +
-           Defines{{"PRECISE", precise ? "1" : "0"}};
+           locations + Defines{{"PRECISE", precise ? "1" : "0"}, {"STORES_GEOMETRIC", geometric ? "1" : "0"}};
 }
 
 std::vector<Draw> withPrograms(ShaderLibrary& shaders, std::vector<Draw> draws, const std::string& stages,
@@ -108,8 +125,9 @@ std::vector<Draw> withPrograms(ShaderLibrary& shaders, std::vector<Draw> draws, 
 // excerpt: geometry
 void GBuffer::draw(Frame& frame, const std::string& pass, const View& view, const std::vector<Draw>& draws,
                    const Defines& material, const GBufferOptions& options) {
-    const std::string layout =
-        options.normals.name() + options.positions.name() + options.gloss.name() + options.albedo.name();
+    const std::string layout = options.packing.name() + options.normals.name() + options.positions.name() +
+                               options.gloss.name() + options.albedo.name() +
+                               (options.geometric ? "geometric" : "");
     if (layout != made_for_) target_ = Framebuffer(options.attachments(), frame.size());
     made_for_ = layout;
     target_.resize(frame.size());

@@ -37,6 +37,7 @@ struct GBufferOptions {
     Choice positions;
     Choice gloss;
     Choice albedo;
+    Toggle geometric;
 
     bool storesPosition() const { return positions == "rgba32f" || positions == "rgba16f"; }
     GlossPlace glossPlace() const;

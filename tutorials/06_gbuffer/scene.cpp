@@ -166,7 +166,7 @@ Scene::Scene(const RungResources& resources, float floor_half_width)
                              .tag = 0,
                              .textures = {}});
     for (const MeshPart& part : data.parts)
-        parts_.push_back({&statue_, part.material, part.first_index, part.index_count});
+        parts_.push_back({&*statue_, part.material, part.first_index, part.index_count});
     // the floor's normals are exaggerated, or the mortar would not be seen
     std::vector<std::string> floor_warnings;
     const std::filesystem::path floor = resources.file(&RungFiles::floor, "assets/brick/brick.mtl");
@@ -180,7 +180,7 @@ Scene::Scene(const RungResources& resources, float floor_half_width)
                          .tag = 1,
                          .textures = {}});
     floor_surface_ = surfaces_.size() - 1;
-    parts_.push_back({&floor_, floor_surface_, 0, 0});
+    parts_.push_back({&*floor_, floor_surface_, 0, 0});
     // the project's own cat is what the original drew of it
     if (!resources.given.mesh.empty()) warnings_.add(notDrawn(mesh.string()));
 }
@@ -228,7 +228,7 @@ Draw Scene::drawOf(const Part& part, const SceneOptions& options) {
     Surface& surface = surfaces_[part.surface];
     const MaterialData& data = surface.data;
     const MaterialTextures& textures = texturesOf(surface, options.filter());
-    const bool of_statue = part.mesh == &statue_;
+    const bool of_statue = statue_ && part.mesh == &*statue_;
     Draw result = {.mesh = *part.mesh,
                    .part = {.inputs = {{"base_map", textures.base}, {"surface_map", textures.surface}},
                             .uniforms = {{"base_color", glm::vec3(data.base_color)},
@@ -277,22 +277,22 @@ std::vector<Draw> Scene::depthDraws(const SceneOptions& options) {
     const auto hasHoles = [&](const Part& part) {
         return surfaces_[part.surface].data.alpha_mode == AlphaMode::mask;
     };
-    std::vector<Draw> draws = {{.mesh = floor_}};
-    if (std::none_of(parts_.begin(), parts_.end(), hasHoles)) {
-        draws.push_back({.mesh = statue_});
-        for (const Mesh& mesh : added_)
-            draws.push_back({.mesh = mesh});
-        return draws;
-    }
+    std::vector<Draw> draws;
+    if (floor_) draws.push_back({.mesh = *floor_});
     for (const Mesh& mesh : added_)
         draws.push_back({.mesh = mesh});
+    if (!statue_) return draws;
+    if (std::none_of(parts_.begin(), parts_.end(), hasHoles)) {
+        draws.push_back({.mesh = *statue_});
+        return draws;
+    }
     for (const Part& part : parts_) {
-        if (part.mesh != &statue_) continue;
+        if (part.mesh != &*statue_) continue;
         if (hasHoles(part))
             draws.push_back(drawOf(part, options));
         else
             draws.push_back(
-                {.mesh = statue_, .first_index = part.first_index, .index_count = part.index_count});
+                {.mesh = *statue_, .first_index = part.first_index, .index_count = part.index_count});
     }
     return draws;
 }

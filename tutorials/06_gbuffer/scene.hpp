@@ -49,6 +49,9 @@ class Scene {
     // the floor. Throws std::runtime_error naming the file that cannot be used.
     explicit Scene(const RungResources& resources, float floor_half_width = 6);
 
+    // Nothing but what is added.
+    explicit Scene(Warnings& warnings) : warnings_(warnings) {}
+
     void add(const PlainObject& object);
     void setFloorShininess(float exponent) { surfaces_[floor_surface_].shininess = exponent; }
 
@@ -78,8 +81,8 @@ class Scene {
     Draw drawOf(const Part& part, const SceneOptions& options);
 
     Warnings& warnings_;
-    Mesh statue_;
-    Mesh floor_;
+    std::optional<Mesh> statue_;
+    std::optional<Mesh> floor_;
     std::deque<Mesh> added_;
     bool statue_has_colors_ = false;
     bool statue_is_sheet_ = false;

@@ -40,9 +40,10 @@ struct DeferredOptions {
         all.choice("environment_specular", "raw", {"raw", "prefiltered"},
                    "reflections: one fetch, or mip levels filtered for the surface's roughness");
     ToneMapOptions display{all, "clamp", "gamma22"};
-    Choice view =
-        all.choice("view", "lit", {"lit", "albedo", "normal", "position", "depth", "ssao", "shadow"},
-                   "the picture, or one buffer full screen");
+    Choice view = all.choice(
+        "view", "lit",
+        {"lit", "albedo", "normal", "position", "depth", "ssao", "shadow", "sun", "ambient", "reflected"},
+        "the picture, or one buffer or term of the light full screen");
     Toggle filmstrip = all.toggle("filmstrip", true, "four buffers along the bottom");
     OrbitSettings orbit{all};
     // end excerpt
@@ -83,7 +84,7 @@ class Deferred final : public Rung {
 
     void render(Frame& frame) override {
         setUp(frame);
-        shadow_.draw(frame, sun_, scene_.depthDraws(options_.scene), options_.shadow);
+        shadow_.draw(frame, sun_, view_, scene_.depthDraws(options_.scene), options_.shadow);
         gbuffer_.draw(frame, "geometry", view_, scene_.materialDraws(options_.scene),
                       options_.scene.defines(), options_.gbuffer);
         drawOcclusion(frame);
@@ -107,7 +108,6 @@ class Deferred final : public Rung {
 
         const float sun_rad = time_s * 0.25F;
         sun_.to_sun = glm::normalize(glm::vec3(0.6F * std::cos(sun_rad), 1.05F, 0.6F * std::sin(sun_rad)));
-        sun_.view_from_world = glm::lookAt(sun_.to_sun * 8.0F, {0, 0.8F, 0}, {0, 1, 0});
 
         point_positions_.clear();
         point_colors_.clear();
@@ -173,7 +173,8 @@ class Deferred final : public Rung {
     void light(Frame& frame) {
         ShaderPart part =
             gbuffer_.part(view_, options_.gbuffer) + shadow_.part(sun_, options_.shadow) +
-            ShaderPart{.defines = options_.ssao.defines() + options_.ssao_resolution.defines() +
+            ShaderPart{.defines = options_.view.defines() + options_.ssao.defines() +
+                                  options_.ssao_resolution.defines() +
                                   options_.environment_diffuse.defines() +
                                   options_.environment_specular.defines() +
                                   Defines{{"SUN", options_.sun ? "1" : "0"},
@@ -225,7 +226,7 @@ class Deferred final : public Rung {
         return gbuffer_.part(view_, options_.gbuffer) + shadow_.part(sun_, options_.shadow) +
                ShaderPart{.defines = options_.view.defines() + options_.ssao.defines() +
                                      options_.display.encode.defines(),
-                          .inputs = {{"ssao_map", occlusion().color()}},
+                          .inputs = {{"ssao_map", occlusion().color()}, {"lit_map", lit_.color()}},
                           .uniforms = {{"aspect", frame.aspect()}}};
     }
 
@@ -246,7 +247,7 @@ class Deferred final : public Rung {
 
     // of the frame being drawn
     gbuffer::View view_{Camera(), 1};
-    shadow_map::SunView sun_{.half_width = 4, .near = 0.1F, .far = 20};
+    shadow_map::Sun sun_;
     std::vector<glm::vec3> point_positions_;
     std::vector<glm::vec3> point_colors_;
 };

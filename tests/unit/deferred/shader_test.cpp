@@ -1,5 +1,6 @@
 // The shaders' formulas, each drawn by itself and read back.
 #include "06_gbuffer/gbuffer.hpp"
+#include "07_shadow_map/shadow_map.hpp"
 #include "gl_test.hpp"
 
 #include <algorithm>
@@ -158,11 +159,16 @@ void main() {
     visible = sunVisible(place[int(gl_FragCoord.x)], vec3(0.0, 0.0, 1.0), vec3(0.0, 0.0, 1.0));
 }
 )";
-const Defines shadow_defines = original_layout + Defines{{"PCF_TAPS", "5"},
-                                                         {"SHADOW_BIAS", "1"},
-                                                         {"SHADOW_BIAS_CONSTANT", "0"},
-                                                         {"SHADOW_BIAS_SLOPE", "1"},
-                                                         {"SHADOW_BIAS_TEXEL", "2"}};
+// Of the shadow map, as the settings' defaults make it but for these.
+Defines shadowDefines(const std::vector<std::string>& sets = {}) {
+    Settings settings;
+    const shadow_map::ShadowOptions options(settings);
+    for (const std::string& set : sets)
+        settings.set(set);
+    return options.defines();
+}
+// Places in world space are places in the map.
+const std::vector<glm::vec4> same_place = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
 
 TEST_F(DeferredShader, aPlaceOutsideTheLightsFrustumIsLit) {
     const Framebuffer shadow(
@@ -173,12 +179,12 @@ TEST_F(DeferredShader, aPlaceOutsideTheLightsFrustumIsLit) {
                   .depth_test = DepthTest::less,
                   .clear_depth = 0.0F}); // all is in shadow
     const Framebuffer target({{.name = "visible", .format = Format::r32f}}, {4, 1});
-    const Program& probe = program(shadow_probe, shadow_defines);
+    const Program& probe = program(shadow_probe, shadowDefines());
     draw(target,
          {.program = probe,
           .inputs = {{"shadow_map", shadow.depth()}},
           .uniforms = {
-              {"shadow_from_world", glm::mat4(1)},
+              {"shadow_rows", same_place},
               {"place", std::vector<glm::vec3>{
                             {0.5F, 0.5F, 0.5F}, {2, 0.5F, 0.5F}, {0.5F, -1, 0.5F}, {0.5F, 0.5F, 1.5F}}}}});
     EXPECT_EQ(valuesOf(target.color()), (std::vector<float>{0, 1, 1, 1}));
@@ -196,11 +202,7 @@ void main() { gl_FragDepth = turnOf(ivec2(gl_FragCoord.xy)); }
                   .depth_test = DepthTest::less,
                   .clear_depth = 1.0F});
     for (const char* taps : {"1", "3", "5", "7", "9"}) {
-        Defines defines = original_layout + Defines{{"SHADOW_BIAS", "0"},
-                                                    {"SHADOW_BIAS_CONSTANT", "0"},
-                                                    {"SHADOW_BIAS_SLOPE", "1"},
-                                                    {"SHADOW_BIAS_TEXEL", "2"},
-                                                    {"PCF_TAPS", taps}};
+        const Defines defines = shadowDefines({std::string("shadow_pcf=") + taps});
         const Framebuffer target({{.name = "difference", .format = Format::r32f}}, {128, 128});
         draw(target, {.program = program(R"(
 #include "07_shadow_map/shadow.glsl"
@@ -212,7 +214,7 @@ void main() {
     for (int y = -reach; y <= reach; ++y)
         for (int x = -reach; x <= reach; ++x)
             sum += textureLod(shadow_map, vec3(uv * 1.2 - 0.1 + vec2(x, y) / 32.0, 0.4), 0.0);
-    difference = abs(sum / float(PCF_TAPS * PCF_TAPS) - filteredShadow(uv * 1.2 - 0.1, 0.4));
+    difference = abs(sum / float(PCF_TAPS * PCF_TAPS) - filteredShadow(ShadowPlace(0, uv * 1.2 - 0.1, 0.4, vec2(0.0))));
 }
 )",
                                          defines),

@@ -62,6 +62,29 @@ TEST_F(PassTest, ofAPartAPassTakesWhatItsProgramUses) {
     EXPECT_EQ(pixelOf(target.color(), 0, 0), red);
 }
 
+TEST_F(PassTest, ofAPartsListAPassTakesAsManyElementsAsItsProgramUses) {
+    const Framebuffer target({{"out"}}, {2, 2});
+    const Program first_of_list = makeProgram(full_screen_vertex, R"(#version 330 core
+uniform vec4 colors[3];
+out vec4 color;
+void main() { color = colors[0] + colors[1]; }
+)");
+    draw(target, {.program = first_of_list,
+                  .part = {.uniforms = {{"colors", std::vector<glm::vec4>{red, glm::vec4(0), green}}}}});
+    EXPECT_EQ(pixelOf(target.color(), 0, 0), red);
+}
+
+TEST_F(PassTest, aViewportIsDrawnToAndNoOtherPixel) {
+    const Framebuffer target({{"out"}}, {4, 2});
+    draw(
+        target,
+        {.program = flat, .uniforms = paint_red, .clear_color = green, .viewport = Viewport{{1, 0}, {2, 1}}});
+    for (const int x : {0, 1, 2, 3})
+        for (const int y : {0, 1})
+            EXPECT_EQ(pixelOf(target.color(), x, y), y == 0 && (x == 1 || x == 2) ? red : green)
+                << x << ' ' << y;
+}
+
 TEST_F(PassTest, aValueGivenInAnEarlierPassDoesNotCountAsGivenInThis) {
     const Framebuffer target({{"out"}}, {2, 2});
     draw(target, {.program = flat, .uniforms = paint_red});
