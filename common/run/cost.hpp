@@ -1,4 +1,4 @@
-// What a frame costs: instructions, copies and bytes for each pass. See the README's "How cost is measured".
+// What a frame costs: instructions, copies and bytes for each pass. See tutorials/MEASURING.md.
 #pragma once
 
 #include "rung/rung.hpp"
