@@ -281,6 +281,22 @@ int runHeadless(const Options& options, const RungInfo& info, Settings& settings
         } catch (const std::runtime_error&) {
         }
     };
+    // Once whatever a batch counts, so that its shaders are compiled before valgrind begins to instrument.
+    for (const FrameRequest& request : requests) {
+        if (!options.is_batch || options.counter != CounterKind::callgrind || !request.cost ||
+            request.files != requests[0].files || interrupted != 0)
+            continue;
+        try {
+            Renderer& first = rendererFor(request.files);
+            request.applyTo(settings);
+            first.render(request.first_frame, request.size);
+        } catch (const std::exception&) { // what is wrong with it is said when its turn has come
+            try {
+                context->debugLog().check("");
+            } catch (const std::runtime_error&) {
+            }
+        }
+    }
     for (const FrameRequest& request : requests) {
         if (interrupted != 0) break;
         const auto render = [&] {
