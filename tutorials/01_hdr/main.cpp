@@ -39,7 +39,7 @@ struct HdrOptions {
     OrbitSettings orbit{all};
     // end excerpt
 
-    // What the charts speak for; the format they speak for is the original's own.
+    // What the charts show to be best; of the formats that is the original's own.
     HdrOptions() {
         all.dial({"format", {"rgba32f", "rgba16f", "r11f_g11f_b10f", "rgb10_a2", "rgba8"}});
         all.preset({"recommended", "the tone map that turns hues least", {{"tone_map", "pbr_neutral"}}});
