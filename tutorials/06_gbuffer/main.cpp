@@ -27,11 +27,7 @@ struct Options {
     Options() {
         all.preset({"recommended",
                     "twelve bytes a pixel, of which one pixel in a thousand shows a difference",
-                    {{"normals", "oct12"},
-                     {"precise", "on"},
-                     {"positions", "depth24"},
-                     {"gloss", "8"},
-                     {"albedo", "srgb"}}});
+                    {{"packing", "rgba16"}, {"positions", "depth24"}}});
         all.dial({"normals", {"rgba32f", "rgba16f", "oct16", "rgb10", "oct12", "oct10", "rgb8", "oct8"}});
         all.dial({"positions", {"rgba32f", "linear", "depth32f", "depth24", "rgba16f", "depth16"}});
         all.dial({"gloss", {"float", "8", "6", "4"}});
