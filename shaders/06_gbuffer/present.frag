@@ -44,6 +44,8 @@ vec3 shown() {
     return vec3(surface.specular / max_specular);
 #elif VIEW == VIEW_NORMAL
     return surface.world_normal * 0.5 + 0.5;
+#elif VIEW == VIEW_GEOMETRIC
+    return geometricNormalAt(uv, surface.world_position) * 0.5 + 0.5;
 #elif VIEW == VIEW_GLOSS
     return vec3(log2(surface.shininess) / log2_max_shininess);
 #elif VIEW == VIEW_POSITION

@@ -17,8 +17,8 @@ struct Options {
     SceneOptions scene{all};
     Number floor_shininess = all.number("floor_shininess", 24, 1, 8192, "exponent of the floor's highlights");
     Choice view = all.choice("view", "lit",
-                             {"lit", "albedo", "specular", "normal", "gloss", "position", "depth",
-                              "lit_error", "normal_error", "position_error"},
+                             {"lit", "albedo", "specular", "normal", "geometric", "gloss", "position",
+                              "depth", "lit_error", "normal_error", "position_error"},
                              "the picture; what is stored, full screen; or how far it is from 32-bit floats");
     Number amplify = all.number("amplify", 32, 1, 10000, "factor on what the error views show");
     ToneMapOptions display{all, "aces_narkowicz", "srgb"};
