@@ -41,6 +41,10 @@ vec4 packNormal(vec3 normal) {
     vec2 stored = nearestOctahedral(normal, OCTAHEDRAL_STEPS);
 #else
     vec2 stored = octahedralFromDirection(normal);
+#if NORMALS == NORMALS_OCT10
+    // a driver may round to ten bits by more than half a code
+    stored = floor(stored * OCTAHEDRAL_STEPS + 0.5) / OCTAHEDRAL_STEPS;
+#endif
 #endif
 #if NORMALS == NORMALS_OCT12
     // twelve bits each: red and green hold the upper eight, blue the lower four of both
