@@ -2,6 +2,7 @@
 #include "charts/bloom.hpp"
 #include "charts/exposure.hpp"
 #include "charts/formats.hpp"
+#include "charts/gbuffer.hpp"
 #include "charts/tone.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -25,6 +26,7 @@ const std::map<std::string, Family> families = {
     {"bloom", {gll::charts::measureBloomCosts, gll::charts::drawBloomCharts}},
     {"exposure", {gll::charts::measureExposureCosts, gll::charts::drawExposureCharts}},
     {"formats", {gll::charts::measureFormatCosts, gll::charts::drawFormatCharts}},
+    {"gbuffer", {gll::charts::measureGbufferCosts, gll::charts::drawGbufferCharts}},
     {"tone", {gll::charts::measureToneCosts, gll::charts::drawToneCharts}}};
 
 // The family's charts and tables in a folder; costs are measured, not drawn.

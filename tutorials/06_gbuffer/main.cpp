@@ -26,7 +26,7 @@ struct Options {
 
     Options() {
         all.preset({"recommended",
-                    "twelve bytes a pixel, of which one pixel in a thousand shows a difference",
+                    "twelve bytes a pixel; two lit pixels in a thousand show a difference",
                     {{"packing", "rgba16"}, {"positions", "depth24"}}});
         all.dial({"normals", {"rgba32f", "rgba16f", "oct16", "rgb10", "oct12", "oct10", "rgb8", "oct8"}});
         all.dial({"positions", {"rgba32f", "linear", "depth32f", "depth24", "rgba16f", "depth16"}});
