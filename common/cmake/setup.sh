@@ -32,6 +32,7 @@ libcli11-dev            CLI11: the command line
 test_packages="
 libgtest-dev            GoogleTest
 libfftw3-dev            FFTW: exact blurs to compare with
+libembree-dev           Embree: rays, to compare shadows with
 libopencolorio-dev      OpenColorIO: ACES to compare tone curves with
 xvfb                    a display for the window test
 xauth                   Xvfb's companion

@@ -137,12 +137,11 @@ float filteredShadow(ShadowPlace place) {
 #if HAS_MOMENTS
 // excerpt: moments
 // Chebyshev's inequality: the most of a distribution that can lie at or beyond a depth in front of which its mean is
-// (Donnelly and Lauritzen 2006, "Variance Shadow Maps"). What is left of it after cutting off a fifth bleeds less.
+// (Donnelly and Lauritzen 2006, "Variance Shadow Maps").
 float chebyshev(float mean, float square, float depth, float least_variance) {
     if (depth <= mean) return 1.0;
     float variance = max(square - mean * mean, least_variance);
-    float most = variance / (variance + (depth - mean) * (depth - mean));
-    return clamp((most - 0.2) / 0.8, 0.0, 1.0);
+    return variance / (variance + (depth - mean) * (depth - mean));
 }
 
 #if SHADOW_FILTER == SHADOW_FILTER_MSM
@@ -169,7 +168,8 @@ float hamburger(vec4 b, float depth) {
     float high = -0.5 * p + root;
     vec4 chosen = high < depth ? vec4(low, depth, 1.0, 1.0) : low < depth ? vec4(depth, low, 0.0, 1.0) : vec4(0.0);
     float share = (chosen.x * high - b.x * (chosen.x + high) + b.y) / ((high - chosen.y) * (depth - low));
-    return clamp(1.0 - (chosen.z + chosen.w * share), 0.0, 1.0);
+    // what bias and rounding take from a full shadow: Peters 2017, "Non-linearly Quantized Moment Shadow Maps"
+    return clamp(1.0 - (chosen.z + chosen.w * share) / 0.98, 0.0, 1.0);
 }
 #endif
 
@@ -178,7 +178,8 @@ float filteredShadow(ShadowPlace place) {
     vec2 uv = atlasUv(place.cascade, clamp(place.uv, half_texel, 1.0 - half_texel));
     vec4 stored = textureLod(shadow_moments, uv, 0.0);
 #if SHADOW_FILTER == SHADOW_FILTER_VSM
-    return chebyshev(stored.x, stored.y, place.depth, 1e-6);
+    // the bound is far from tight where things lie one behind the other; without its last fifth less light bleeds
+    return clamp((chebyshev(stored.x, stored.y, place.depth, 1e-6) - 0.2) / 0.8, 0.0, 1.0);
 #elif SHADOW_FILTER == SHADOW_FILTER_EVSM
     vec2 depth = warped(place.depth);
     vec2 scale = 1e-4 * vec2(positive_exponent, negative_exponent) * depth;
@@ -260,8 +261,10 @@ float sunVisible(vec3 world_position, vec3 normal, vec3 to_sun) {
     float n_dot_l = dot(normal, to_sun);
     int cascade = cascadeAt(world_position);
 #if SHADOW_BIAS == SHADOW_BIAS_NORMAL_OFFSET
-    // Holbert 2011, "Saying Goodbye to Shadow Acne": along the normal, the more the steeper
-    world_position += normal * (shadow_texel[cascade] * (0.5 * float(PCF_TAPS) + 0.5) * clamp(1.0 - n_dot_l, 0.0, 1.0));
+    // Holbert 2011, "Saying Goodbye to Shadow Acne": along the normal. By the sine, as a plane that much higher is as much
+    // nearer the sun as the filter's farthest texels of it are deeper.
+    float sine = sqrt(max(1.0 - n_dot_l * n_dot_l, 0.0));
+    world_position += normal * (shadow_texel[cascade] * (0.5 * float(PCF_TAPS) + 0.5) * sine);
 #endif
     vec3 at = placeIn(cascade, world_position);
     ShadowPlace place = ShadowPlace(cascade, at.xy, at.z, vec2(0.0));

@@ -3,6 +3,7 @@
 #include "charts/exposure.hpp"
 #include "charts/formats.hpp"
 #include "charts/gbuffer.hpp"
+#include "charts/shadow.hpp"
 #include "charts/tone.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -27,6 +28,7 @@ const std::map<std::string, Family> families = {
     {"exposure", {gll::charts::measureExposureCosts, gll::charts::drawExposureCharts}},
     {"formats", {gll::charts::measureFormatCosts, gll::charts::drawFormatCharts}},
     {"gbuffer", {gll::charts::measureGbufferCosts, gll::charts::drawGbufferCharts}},
+    {"shadow", {gll::charts::measureShadowCosts, gll::charts::drawShadowCharts}},
     {"tone", {gll::charts::measureToneCosts, gll::charts::drawToneCharts}}};
 
 // The family's charts and tables in a folder; costs are measured, not drawn.

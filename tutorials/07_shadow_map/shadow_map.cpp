@@ -196,8 +196,8 @@ void ShadowMap::drawMoments(Frame& frame, const ShadowOptions& options) {
             {.program = shaders_.fullScreen("07_shadow_map/moments.frag",
                                             options.defines() + Defines{{"FIRST", axis == 0 ? "1" : "0"}}),
              .inputs = {{"source", axis == 0 ? target_->depth() : moments_[0]->color()}},
-             .uniforms = {{"texel_step", step}},
-             .part = {.uniforms = {{"map_size", int(options.size)}}}});
+
+             .part = {.uniforms = {{"texel_step", step}, {"map_size", int(options.size)}}}});
     }
 }
 

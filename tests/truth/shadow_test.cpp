@@ -1,0 +1,99 @@
+// 07_shadow_map against rays: the sun's view, and the bias that needs no number chosen for the scene.
+// A new case: ask for its frames in Plot::errors(), which shoots rays at the same triangles.
+#include "07_shadow_map/plot.hpp"
+#include "charts/frames.hpp"
+#include "truth/shadow_rays.hpp"
+
+#include <cmath>
+#include <glm/trigonometric.hpp>
+#include <gtest/gtest.h>
+#include <limits>
+#include <memory>
+
+namespace gll::test {
+namespace {
+
+std::filesystem::path rung;
+
+TEST(RayScene, findsTheNearestTriangleAndNothingBeside) {
+    const std::vector<glm::vec3> corners = {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}, {0, 0, 3}, {1, 0, 3}, {0, 1, 3}};
+    const std::vector<std::uint32_t> indices = {3, 4, 5, 0, 1, 2};
+    const truth::RayScene scene(corners, indices);
+    EXPECT_FLOAT_EQ(scene.distance({0.2F, 0.2F, 0}, {0, 0, 1}), 2);
+    EXPECT_FLOAT_EQ(scene.distance({0.2F, 0.2F, 2}, {0, 0, 1}), 1) << "the surface itself is not counted";
+    EXPECT_TRUE(std::isinf(scene.distance({0.8F, 0.8F, 0}, {0, 0, 1})));
+}
+
+struct Plot {
+    std::vector<glm::vec3> positions;
+    std::vector<std::uint32_t> indices;
+    std::unique_ptr<truth::RayScene> rays;
+
+    Plot() {
+        for (const gbuffer::PlainObject& object : shadow_map::makePlot()) {
+            const auto first = static_cast<std::uint32_t>(positions.size());
+            for (const gbuffer::Vertex& vertex : object.vertices)
+                positions.push_back(vertex.position);
+            for (const std::uint32_t index : object.indices)
+                indices.push_back(first + index);
+        }
+        rays = std::make_unique<truth::RayScene>(positions, indices);
+    }
+
+    // Of the rung with these settings, the sun at these elevations, in a map of 512 texels.
+    truth::ShadowErrors errors(const charts::Set& set, int filter_width,
+                               const std::vector<int>& elevations_deg) const {
+        charts::Frames frames(rung);
+        for (const int elevation : elevations_deg) {
+            charts::Set all = set;
+            all.insert({{"scene", "plot"},
+                        {"shadow_size", "512"},
+                        {"shadow_pcf", std::to_string(filter_width)},
+                        {"sun_elevation_deg", std::to_string(elevation)}});
+            for (const char* target : {"position", "normal", "sun"})
+                frames.ask(all, {160, 120}, target);
+        }
+        frames.run();
+        truth::ShadowErrors errors;
+        for (std::size_t i = 0; i < elevations_deg.size(); ++i) {
+            const float elevation_rad = glm::radians(static_cast<float>(elevations_deg[i]));
+            const float azimuth_rad = glm::radians(75.0F) + 0.25F; // the rung's at frame 60
+            const truth::SunTruth sun = {{std::cos(elevation_rad) * std::cos(azimuth_rad),
+                                          std::sin(elevation_rad),
+                                          std::cos(elevation_rad) * std::sin(azimuth_rad)},
+                                         12.0F / 512,
+                                         filter_width};
+            errors.add(truth::trueShadows(*rays, sun, frames.read(3 * i), loadImage(frames.file(3 * i + 1))),
+                       sun, frames.read(3 * i + 2));
+        }
+        return errors;
+    }
+};
+
+TEST(Shadow, ofThePlaneRuleIsWithoutAcneAndGapsUpTo85DegreesAtFourTaps) {
+    const truth::ShadowErrors errors = Plot().errors({{"shadow_bias", "plane"}}, 3, {5, 15, 30, 50, 80});
+    EXPECT_LE(errors.acnePercent(), 0.1);
+    EXPECT_LE(errors.gapTexels(), 1);
+    EXPECT_LE(errors.leakPercent(), 0.05);
+}
+
+TEST(Shadow, ofAConstantBiasHasAcneWhereTheSunIsLow) {
+    EXPECT_GT(Plot().errors({{"shadow_bias", "constant"}}, 3, {15}).acnePercent(), 20);
+}
+
+TEST(Shadow, looksAlongTheLightThatShadesAndAsPrintedDoesNot) {
+    const Plot plot;
+    EXPECT_LT(plot.errors({{"shadow_bias", "plane"}}, 1, {40, 60}).rmseToHard(), 0.06);
+    EXPECT_GT(plot.errors({{"shadow_bias", "plane"}, {"shadow_fit", "as_printed"}}, 1, {40, 60}).rmseToHard(),
+              0.1);
+}
+
+} // namespace
+} // namespace gll::test
+
+int main(int argc, char** argv) {
+    testing::InitGoogleTest(&argc, argv);
+    if (argc < 2) return 2;
+    gll::test::rung = argv[1];
+    return RUN_ALL_TESTS();
+}
