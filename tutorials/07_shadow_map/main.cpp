@@ -33,8 +33,7 @@ struct Options {
         all.preset({"recommended",
                     "no self-shadowing and no gap at any slope, without a number chosen for the scene",
                     {{"shadow_bias", "plane"}, {"shadow_pcf", "3"}, {"shadow_fit", "stable"}}});
-        all.dial({"shadow_size"});
-        all.dial({"shadow_pcf", {"9", "7", "5", "3", "1"}});
+        all.dial({"shadow_size", {"4096", "2048", "1024", "512", "256"}});
     }
 };
 
