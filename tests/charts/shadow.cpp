@@ -2,14 +2,11 @@
 // truth. The truth is rays against the plot's triangles, over the same footprint.
 #include "charts/shadow.hpp"
 
-#include "07_shadow_map/plot.hpp"
 #include "charts/chart.hpp"
 #include "charts/frames.hpp"
 #include "support/choices.hpp"
-#include "truth/shadow_rays.hpp"
+#include "truth/shadow_plot.hpp"
 
-#include <cmath>
-#include <glm/trigonometric.hpp>
 #include <set>
 #include <string>
 #include <vector>
@@ -64,29 +61,6 @@ void requireAll(const fs::path& programs) {
     test::requireCovered(programs / "07_shadow_map", "shadow_filter", filters);
 }
 
-// What the rung does at frame 60, 1 s: see its setUp().
-truth::SunTruth sunAt(int elevation_deg, int size, int width) {
-    const float azimuth_rad = glm::radians(75.0F) + 0.25F;
-    const float elevation_rad = glm::radians(static_cast<float>(elevation_deg));
-    return {{std::cos(elevation_rad) * std::cos(azimuth_rad), std::sin(elevation_rad),
-             std::cos(elevation_rad) * std::sin(azimuth_rad)},
-            12.0F / static_cast<float>(size),
-            width};
-}
-
-std::unique_ptr<truth::RayScene> plotTriangles() {
-    std::vector<glm::vec3> positions;
-    std::vector<std::uint32_t> indices;
-    for (const gbuffer::PlainObject& object : shadow_map::makePlot()) {
-        const auto first = static_cast<std::uint32_t>(positions.size());
-        for (const gbuffer::Vertex& vertex : object.vertices)
-            positions.push_back(vertex.position);
-        for (const std::uint32_t index : object.indices)
-            indices.push_back(first + index);
-    }
-    return std::make_unique<truth::RayScene>(positions, indices);
-}
-
 Set plotSet(int elevation_deg) {
     return {{"scene", "plot"},
             {"shadow_size", std::to_string(map_size)},
@@ -127,7 +101,7 @@ void measureShadowCosts(const fs::path& programs, const fs::path& costs_csv) {
 void drawShadowCharts(const fs::path& programs, const fs::path& costs_csv, const fs::path& folder) {
     requireAll(programs);
     const Costs costs(costs_csv);
-    const auto scene = plotTriangles();
+    const auto scene = truth::plotRays();
     const std::vector<Method> methods = filterMethods();
     Frames frames(programs / "07_shadow_map");
     struct Asked {
@@ -158,7 +132,7 @@ void drawShadowCharts(const fs::path& programs, const fs::path& costs_csv, const
         const measure::ColorImage positions = frames.read(asked[e].position);
         const Image normals = loadImage(frames.file(asked[e].normal)); // two numbers, no color
         for (const int width : {1, 3, 5, 7, 9}) {
-            const truth::SunTruth sun = sunAt(elevations_deg[e], map_size, width);
+            const truth::SunTruth sun = truth::plotSun(elevations_deg[e], map_size, width);
             const auto shadows = truth::trueShadows(*scene, sun, positions, normals);
             for (std::size_t i = 0; i < methods.size(); ++i)
                 if (methods[i].set.at("shadow_pcf") == std::to_string(width))
