@@ -162,10 +162,10 @@ void drawShadowCharts(const fs::path& programs, const fs::path& costs_csv, const
             const std::string name =
                 std::to_string(bands_deg[band]) + " to " + std::to_string(bands_deg[band + 1]);
             const double middle = 0.5 * (bands_deg[band] + bands_deg[band + 1]);
-            acne.push_back({biases[i].name, name, middle, by_slope[i][band].acnePercent(),
+            acne.push_back({biases[i].name, "", middle, by_slope[i][band].acnePercent(),
                             band == 3 ? biases[i].mark : ""});
-            gap.push_back({biases[i].name, name, middle, by_slope[i][band].gapTexels(),
-                           band == 3 ? biases[i].mark : ""});
+            gap.push_back(
+                {biases[i].name, "", middle, by_slope[i][band].gapTexels(), band == 3 ? biases[i].mark : ""});
             slopes.rows.push_back({biases[i].name, name, shortNumber(by_slope[i][band].acnePercent()),
                                    shortNumber(by_slope[i][band].gapTexels())});
         }

@@ -161,6 +161,8 @@ void ShadowMap::draw(Frame& frame, const Sun& sun, const gbuffer::View& camera,
     made_for_ = kind;
     target_->resize({size * count, size}); // cascades side by side
     const std::vector<Draw> draws = gbuffer::withPrograms(shaders_, casters, "07_shadow_map/shadow", {});
+    // What stands between a fitted view and the sun is drawn on the near plane, and still casts its shadow.
+    const bool clamped = sun.casters_beyond || options.fit == "fitted" || options.fit == "stable";
     for (int i = 0; i < count; ++i)
         frame.pass(
             count == 1 ? "shadow" : "shadow" + std::to_string(i), *target_,
@@ -172,7 +174,7 @@ void ShadowMap::draw(Frame& frame, const Sun& sun, const gbuffer::View& camera,
              .polygon_offset = options.bias == "slope" ? std::optional(glm::vec2(2, 4)) : std::nullopt,
              .clear_depth = i == 0 ? std::optional(1.0F) : std::nullopt,
              .viewport = Viewport{{size * i, 0}, {size, size}},
-             .depth_clamp = true}); // what stands between the view and the sun still casts its shadow
+             .depth_clamp = clamped});
     if (options.hasMoments()) drawMoments(frame, options);
 }
 // end excerpt

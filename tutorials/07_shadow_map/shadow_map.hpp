@@ -17,8 +17,9 @@ struct Sun {
     float half_width = 4;         // of the fixed view
     float near = 0.1F;            // of the fixed view, world units from where it looks
     float far = 20;
-    float receivers_far = 20; // the fitted views follow shadows to this distance from the camera
-    float casters_reach = 10; // and see what casts them this much nearer the sun
+    bool casters_beyond = true; // whether what stands before the fixed view's near plane casts a shadow too
+    float receivers_far = 20;   // the fitted views follow shadows to this distance from the camera
+    float casters_reach = 10;   // and see what casts them this much nearer the sun
 };
 
 // A square parallel view along the sun's light.

@@ -247,7 +247,7 @@ class Deferred final : public Rung {
 
     // of the frame being drawn
     gbuffer::View view_{Camera(), 1};
-    shadow_map::Sun sun_;
+    shadow_map::Sun sun_{.casters_beyond = false}; // as in the original
     std::vector<glm::vec3> point_positions_;
     std::vector<glm::vec3> point_colors_;
 };
