@@ -197,8 +197,8 @@ float filteredShadow(ShadowPlace place) {
 // end excerpt
 #endif
 
-// excerpt: shadow_bias
 #if SHADOW_BIAS == SHADOW_BIAS_PLANE
+// excerpt: plane
 // How the depth of the receiver's plane changes in the map, from its geometric normal: every tap is compared with the
 // plane's own depth there (Isidoro 2006, "Shadow Mapping: GPU-based Tips and Techniques"). A comparison mixes texels up
 // to one beside the tap, by which the plane may lie deeper; that much is the whole bias, and it is one texel of shadow
@@ -213,7 +213,9 @@ vec2 planeGradient(vec3 normal, int cascade) {
     float n_z = min(n.z, -least_cosine * inversesqrt(dot(z, z)));
     return -n.xy / n_z;
 }
+// end excerpt
 #else
+// excerpt: shadow_bias
 // By how much of the depth range a surface is moved towards the sun, so that it does not shade itself.
 float shadowBias(float n_dot_l, int cascade) {
 #if SHADOW_BIAS == SHADOW_BIAS_CONSTANT
@@ -230,8 +232,8 @@ float shadowBias(float n_dot_l, int cascade) {
     return 0.5 * shadow_texel[cascade] / shadow_depth_range[cascade];
 #endif
 }
-#endif
 // end excerpt
+#endif
 
 vec3 placeIn(int cascade, vec3 world_position) {
     vec4 p = vec4(world_position, 1.0);
