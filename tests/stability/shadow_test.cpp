@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <gtest/gtest.h>
+#include <iterator>
 
 namespace gll::stability {
 namespace {
@@ -106,6 +107,26 @@ TEST_F(ShadowStability, turnedDisksAreNoisyAndSquaresAreNot) {
         } else {
             EXPECT_LT(noise, 0.02) << filters[i];
         }
+    }
+}
+
+// The high plate stands nearer the sun than the fixed view begins; its shadow alone falls on this corner.
+TEST_F(ShadowStability, whatStandsBeforeTheSunsViewCastsItsShadow) {
+    charts::Frames frames(folders.programs / shadow_rung);
+    const char* const fits[] = {"fixed", "fitted", "stable"};
+    for (const char* fit : fits)
+        frames.ask({{"scene", "plot"},
+                    {"shadow_bias", "plane"},
+                    {"shadow_fit", fit},
+                    {"sun_elevation_deg", "60"},
+                    {"sun_azimuth_deg", "30"},
+                    {"camera_yaw_deg", "180"}},
+                   shadow_size, "sun");
+    frames.run();
+    for (std::size_t i = 0; i < std::size(fits); ++i) {
+        const measure::ColorImage seen = frames.read(i);
+        EXPECT_LT(seen.at(33, 213).r, 0.01) << fits[i];
+        EXPECT_GT(seen.at(110, 213).r, 0.99) << fits[i];
     }
 }
 
