@@ -6,7 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
-namespace gll::inline hdr {
+namespace gll {
+inline namespace hdr {
 namespace {
 
 struct Vertex {
@@ -54,4 +55,5 @@ Mesh makeBoxes(std::span<const Box> boxes) {
                  .indices = indices});
 }
 
-} // namespace gll::inline hdr
+} // namespace hdr
+} // namespace gll

@@ -6,7 +6,8 @@
 #include <glm/vec3.hpp>
 #include <span>
 
-namespace gll::inline hdr {
+namespace gll {
+inline namespace hdr {
 
 struct Box {
     glm::vec3 low{0};
@@ -19,4 +20,5 @@ struct Box {
 // Throws std::invalid_argument where there is no box, or one without volume.
 Mesh makeBoxes(std::span<const Box> boxes);
 
-} // namespace gll::inline hdr
+} // namespace hdr
+} // namespace gll

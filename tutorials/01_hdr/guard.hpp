@@ -4,7 +4,8 @@
 
 #include "rung/settings.hpp"
 
-namespace gll::inline hdr {
+namespace gll {
+inline namespace hdr {
 
 struct Guard {
     explicit Guard(Settings& settings)
@@ -17,4 +18,5 @@ struct Guard {
     Toggle on;
 };
 
-} // namespace gll::inline hdr
+} // namespace hdr
+} // namespace gll

@@ -8,7 +8,8 @@
 #include <array>
 #include <cmath>
 
-namespace gll::inline hdr { // inline, because most rungs use it
+namespace gll {
+inline namespace hdr { // inline, because most rungs use it
 
 inline constexpr std::array tone_maps = {
     "clamp",    "reinhard",       "reinhard_luminance", "reinhard_extended",
@@ -43,4 +44,5 @@ struct ToneMapOptions {
     Choice encode;
 };
 
-} // namespace gll::inline hdr
+} // namespace hdr
+} // namespace gll
