@@ -172,9 +172,8 @@ class Search {
         Seen seen;
         if (budget_.kind == Budget::Kind::ev) {
             const std::vector<Reading> readings = renderer_.readings();
-            const auto found = std::find_if(readings.begin(), readings.end(), [](const Reading& reading) {
-                return reading.name == exposure_reading;
-            });
+            const auto found = std::find_if(readings.begin(), readings.end(),
+                                            [](const Reading& reading) { return reading.is_exposure; });
             if (found == readings.end())
                 throw UsageError("--budget ev: " + info_.name + " meters no exposure; write flip= or rmse=");
             seen.exposure_ev = found->value;

@@ -27,9 +27,6 @@ struct Budget {
 Budget parseBudget(const std::string& text);
 const char* kindName(Budget::Kind kind); // "flip", "rmse" or "ev"
 
-// The reading (Rung::readings()) that budgets of exposure are about, in stops.
-constexpr const char* exposure_reading = "exposure_ev";
-
 // What a search ended with. Costs are of the frame that the request names, in copies (cu).
 struct BudgetResult {
     Budget budget;

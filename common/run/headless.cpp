@@ -217,6 +217,9 @@ nlohmann::ordered_json settingJson(const Setting& setting) {
                                 {"kind", kinds[static_cast<std::size_t>(setting.kind)]},
                                 {"help", setting.help}};
     if (!setting.owner.empty()) json["owner"] = setting.owner;
+    constexpr const char* roles[] = {"",        "orbit_yaw", "orbit_pitch", "orbit_zoom", "shows_divider",
+                                     "divider", "other_side"};
+    if (setting.role != Setting::Role::none) json["role"] = roles[static_cast<std::size_t>(setting.role)];
     Setting at_default = setting;
     at_default.value = setting.default_value;
     switch (setting.kind) {

@@ -17,7 +17,11 @@ OrbitSettings::OrbitSettings(Settings& settings)
     : yaw_deg(settings.number("camera_yaw_deg", 0, -360, 360, "turns the camera about its target, degrees")),
       pitch_deg(
           settings.number("camera_pitch_deg", 0, -180, 180, "raises the camera about its target, degrees")),
-      zoom(settings.number("camera_zoom", 1, 0.1, 10, "divides the camera's distance to its target")) {}
+      zoom(settings.number("camera_zoom", 1, 0.1, 10, "divides the camera's distance to its target")) {
+    settings.role(Setting::Role::orbit_yaw, {"camera_yaw_deg"});
+    settings.role(Setting::Role::orbit_pitch, {"camera_pitch_deg"});
+    settings.role(Setting::Role::orbit_zoom, {"camera_zoom"});
+}
 
 Camera OrbitSettings::apply(const Camera& scripted) const {
     if (yaw_deg == 0.0F && pitch_deg == 0.0F && zoom == 1.0F) return scripted; // bit for bit the rung's own

@@ -57,6 +57,7 @@ struct Reading {
     std::string name; // as a setting's: "adapted_luminance"
     std::string unit; // empty where it has none
     double value = 0;
+    bool is_exposure = false; // in stops: what --budget ev= compares
 };
 
 class Rung {

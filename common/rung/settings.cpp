@@ -122,6 +122,11 @@ void Settings::shared(std::string_view owner, std::initializer_list<std::string_
         at(name).owner = owner;
 }
 
+void Settings::role(Setting::Role role, std::initializer_list<std::string_view> names) {
+    for (const std::string_view name : names)
+        at(name).role = role;
+}
+
 void Settings::preset(Preset preset) {
     const Preset& added = presets_.emplace_back(std::move(preset));
     applyPreset(

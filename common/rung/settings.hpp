@@ -15,6 +15,10 @@ namespace gll {
 
 struct Setting {
     enum class Kind { number, integer, toggle, choice };
+    // What others may do with it without knowing the rung: the window turns and moves the camera, and drags
+    // the divider of two compared methods while that is shown; goldens ask less of the side that is drawn
+    // like the first.
+    enum class Role { none, orbit_yaw, orbit_pitch, orbit_zoom, shows_divider, divider, other_side };
 
     std::string name;
     std::string help; // one line, with the unit
@@ -25,6 +29,7 @@ struct Setting {
     std::vector<std::string> choices = {};
     double value = 0;
     std::string owner = {}; // the rung that teaches it, where rungs share it; empty: this one
+    Role role = Role::none;
 
     // As the command line spells it: "0.6", "5", "on", "aces_narkowicz".
     std::string text() const;
@@ -90,6 +95,9 @@ class Settings {
     // Settings that rungs share, and the rung that teaches them: its goldens show all their choices, those of
     // the other rungs one each. Throws UsageError where one is not declared.
     void shared(std::string_view owner, std::initializer_list<std::string_view> names);
+
+    // Throws UsageError where one is not declared.
+    void role(Setting::Role role, std::initializer_list<std::string_view> names);
 
     // A named set of values over the defaults. "original", the defaults themselves, always exists; it was
     // once called "seed", which applyPreset() still takes.

@@ -177,7 +177,7 @@ void Panel::budgetSection(const PanelState& state) {
     }
     // A rung that meters no exposure refuses a budget of it.
     const bool meters = std::any_of(state.readings.begin(), state.readings.end(),
-                                    [](const Reading& reading) { return reading.name == exposure_reading; });
+                                    [](const Reading& reading) { return reading.is_exposure; });
     if (beginCombo("error", kindName(budget_.kind))) {
         for (const Budget::Kind kind : {Budget::Kind::flip, Budget::Kind::rmse, Budget::Kind::ev})
             if ((kind != Budget::Kind::ev || meters) &&

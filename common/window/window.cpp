@@ -208,16 +208,13 @@ class RungWindow {
 
     // Where on the window's width the divider of two compared methods is; nothing where none is shown.
     std::optional<double> divider() const {
-        const Setting* compare = find("compare");
-        const Setting* split = find("split");
-        if (compare == nullptr || split == nullptr || compare->value == 0) return std::nullopt;
-        return split->value;
-    }
-
-    const Setting* find(const std::string& name) const {
-        for (const Setting& setting : settings_.all())
-            if (setting.name == name) return &setting;
-        return nullptr;
+        std::optional<double> place;
+        bool is_shown = false;
+        for (const Setting& setting : settings_.all()) {
+            if (setting.role == Setting::Role::shows_divider) is_shown = setting.value != 0;
+            if (setting.role == Setting::Role::divider) place = setting.value;
+        }
+        return is_shown ? place : std::nullopt;
     }
 
     static double width(GLFWwindow* window) { // in the cursor's units
@@ -244,33 +241,35 @@ class RungWindow {
         if (glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_LEFT) != GLFW_PRESS || that.panel_->hasMouse())
             return;
         if (that.drags_divider_) {
-            that.nudge("split", [&](double) { return x / width(window); });
+            that.nudge(Setting::Role::divider, [&](double) { return x / width(window); });
             return;
         }
         constexpr double degrees_per_unit = 0.4;
-        that.nudge("camera_yaw_deg",
+        that.nudge(Setting::Role::orbit_yaw,
                    [&](double v) { return std::remainder(v + dx * degrees_per_unit, 360); });
-        that.nudge("camera_pitch_deg", [&](double v) { return v + dy * degrees_per_unit; });
+        that.nudge(Setting::Role::orbit_pitch, [&](double v) { return v + dy * degrees_per_unit; });
     }
 
     static void onScroll(GLFWwindow* window, double, double steps) {
         RungWindow& that = self(window);
         if (that.panel_->hasMouse()) return;
-        that.nudge("camera_zoom", [&](double v) { return v * std::pow(1.1, steps); });
+        that.nudge(Setting::Role::orbit_zoom, [&](double v) { return v * std::pow(1.1, steps); });
     }
 
     // Changes a setting within its range, to thousandths, where the rung has it.
     template <class Change>
-    void nudge(const std::string& name, const Change& change) {
+    void nudge(Setting::Role role, const Change& change) {
         for (Setting& setting : settings_.all())
-            if (setting.name == name)
+            if (setting.role == role)
                 setting.value =
                     std::clamp(std::round(change(setting.value) * 1000) / 1000, setting.min, setting.max);
     }
 
     void resetCamera() {
         for (Setting& setting : settings_.all())
-            if (setting.name.starts_with("camera_")) setting.value = setting.default_value;
+            for (const auto role :
+                 {Setting::Role::orbit_yaw, Setting::Role::orbit_pitch, Setting::Role::orbit_zoom})
+                if (setting.role == role) setting.value = setting.default_value;
     }
 
     void renderIfChanged(glm::ivec2 size) {

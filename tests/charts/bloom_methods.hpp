@@ -2,6 +2,7 @@
 // drawn.
 #pragma once
 
+#include "04_pyramid_bloom/spline_sizes.hpp"
 #include "charts/frames.hpp"
 #include "support/choices.hpp"
 
@@ -13,10 +14,6 @@
 #include <vector>
 
 namespace gll::charts {
-
-// Frames whose shorter side is below this are small: 04_pyramid_bloom enlarges their bloom by a spline
-// instead of bilinear fetches.
-inline constexpr int smallest_large_px = 64;
 
 // One way of drawing bloom: a rung, and settings over its defaults.
 struct BloomMethod {
@@ -42,7 +39,8 @@ struct BloomMethod {
     // Where it leaves its bloom, in full range. Splines give small frames one of the frame's own size.
     std::string target(glm::ivec2 size) const {
         if (!isPyramid()) return "blurred";
-        return hasSplines() && std::min(size.x, size.y) < smallest_large_px ? "bloom" : "bloom0";
+        return hasSplines() && std::min(size.x, size.y) < pyramid_bloom::smallest_large_px ? "bloom"
+                                                                                           : "bloom0";
     }
 };
 

@@ -2,7 +2,7 @@
 // from what each texel gives to the picture to what each pixel of the scene gives to it.
 #include "charts/spline_energy.hpp"
 
-#include "charts/bloom_methods.hpp"
+#include "04_pyramid_bloom/spline_sizes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -82,7 +82,8 @@ struct Weighing {
 };
 
 Weighing weighingFor(int shorter_side_px) {
-    return {shorter_side_px < smallest_large_px, shorter_side_px >= 128};
+    return {shorter_side_px < pyramid_bloom::smallest_large_px,
+            shorter_side_px >= pyramid_bloom::smallest_with_heights_px};
 }
 
 SplineShares sharesOf(int side_px, int levels, const Weighing& weighing) {

@@ -69,7 +69,7 @@ std::vector<std::string> missingCases(const nlohmann::json& listed, const std::v
         const auto found = shown.find(name);
         const std::set<std::string> values = found == shown.end() ? std::set<std::string>{} : found->second;
         if (setting.contains("choices") && setting.value("owner", rung) == rung &&
-            !name.starts_with("right_")) {
+            setting.value("role", "") != "other_side") {
             for (const std::string choice : setting.at("choices"))
                 if (!isDefault(setting, choice) && !values.contains(choice))
                     missing[name + "=" + choice] = name + "=" + choice;

@@ -41,6 +41,9 @@ struct HdrOptions {
 
     // What the charts show to be best; of the formats that is the original's own.
     HdrOptions() {
+        all.role(Setting::Role::shows_divider, {"compare"});
+        all.role(Setting::Role::divider, {"split"});
+        all.role(Setting::Role::other_side, {"right_format", "right_tone_map", "right_exposure_ev"});
         all.dial({"format", {"rgba32f", "rgba16f", "r11f_g11f_b10f", "rgb10_a2", "rgba8"}});
         all.preset({"recommended", "the tone map that turns hues least", {{"tone_map", "pbr_neutral"}}});
     }

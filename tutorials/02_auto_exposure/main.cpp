@@ -64,7 +64,7 @@ class AutoExposureRung final : public Rung {
                 {"metered_ev", "stops", state[3]},
                 {"adapted_luminance", "", state[1]},
                 {"key", "", state[2]},
-                {"exposure_ev", "stops", std::log2(double(state[0]))}};
+                {"exposure_ev", "stops", std::log2(double(state[0])), true}};
     }
 
     // What is metered: all of the frame, unless a histogram is trimmed already.

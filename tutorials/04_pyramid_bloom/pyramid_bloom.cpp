@@ -1,6 +1,8 @@
 // The passes of the pyramid, and the taps of its blur.
 #include "04_pyramid_bloom/pyramid_bloom.hpp"
 
+#include "04_pyramid_bloom/spline_sizes.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,13 +13,6 @@ namespace {
 
 // A Gaussian over nine taps; with both sides the weights add up to 1.
 constexpr std::array gaussian = {0.2270270270F, 0.1945945946F, 0.1216216216F, 0.0540540541F, 0.0162162162F};
-
-// Below this, a bilinear fetch of level 0 at an odd size gives one texel up to 1 % more light than the next.
-constexpr int small_extent_px = 64;
-
-// From here on, the linear spline's heights do for its areas where a side is odd: the weights of the pixels
-// in the middle add up to 1 + 1 / side at most.
-constexpr int large_extent_px = 128;
 
 // Level i is the source halved i + 1 times, at least one pixel a side: rounded down, or up where the edges
 // are mirrored, so that no texel of the larger is left over.
@@ -78,7 +73,7 @@ void PyramidBloom::allocate(glm::ivec2 source_size, const PyramidBloomParameters
     resizeChain(levels_, "bloom", parameters.levels, parameters.format, wrap, source_size);
     resizeChain(blurred_, "blur", parameters.blur_radius > 0 ? parameters.levels : 0, parameters.format, wrap,
                 source_size);
-    if (!usesSplines(parameters) || std::min(source_size.x, source_size.y) >= small_extent_px) {
+    if (!usesSplines(parameters) || std::min(source_size.x, source_size.y) >= smallest_large_px) {
         full_.clear();
         return;
     }
@@ -136,7 +131,7 @@ void PyramidBloom::drawDownBySplines(Frame& frame, const Texture& source,
                           bool bright) {
         const glm::ivec2 size = from.size();
         const bool even = size.x % 2 == 0 && size.y % 2 == 0;
-        const bool large = std::min(size.x, size.y) >= large_extent_px;
+        const bool large = std::min(size.x, size.y) >= smallest_with_heights_px;
         const char* weights = !bright && even             ? "WEIGHTS_EVEN"
                               : bright && (even || large) ? "WEIGHTS_HEIGHT"
                                                           : "WEIGHTS_AREA";

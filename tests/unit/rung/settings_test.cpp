@@ -193,5 +193,14 @@ TEST(Settings, ofSeveralRungsNameTheOneThatOwnsThem) {
     EXPECT_THROW(settings.shared("01_test", {"misspelt"}), UsageError);
 }
 
+TEST(Settings, sayWhatOthersMayDoWithThem) {
+    Settings settings;
+    settings.number("split", 0.5, 0, 1, "help");
+    EXPECT_EQ(settings.at("split").role, Setting::Role::none);
+    settings.role(Setting::Role::divider, {"split"});
+    EXPECT_EQ(settings.at("split").role, Setting::Role::divider);
+    EXPECT_THROW(settings.role(Setting::Role::divider, {"misspelt"}), UsageError);
+}
+
 } // namespace
 } // namespace gll::test
