@@ -52,7 +52,7 @@ layout(location = LOCATION_GLOSS) out float gloss_out;
 layout(location = LOCATION_GEOMETRIC) out vec2 geometric_out;
 #endif
 
-// Images are sRGB. Without mip levels the seed's power does; where levels are averaged it must be done in linear
+// Images are sRGB. Without mip levels the original's power does; where levels are averaged it must be done in linear
 // light, so the texture is an sRGB one and has been decoded.
 vec3 albedoFrom(vec3 texel) {
 #if TEXTURE_FILTER == TEXTURE_FILTER_BILINEAR
