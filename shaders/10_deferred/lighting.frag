@@ -5,7 +5,7 @@
 #include "07_shadow_map/shadow.glsl"
 #endif
 #if ENVIRONMENT
-#include "10_deferred/environment.glsl"
+#include "09_environment_light/environment.glsl"
 #endif
 #if SSAO != SSAO_OFF && SSAO_RESOLUTION == SSAO_RESOLUTION_HALF
 #include "10_deferred/same_surface.glsl"
@@ -93,7 +93,9 @@ vec3 reflectedLight(Surface surface, vec3 to_camera) {
     float grazing = 1.0 - max(dot(surface.world_normal, to_camera), 0.0);
     float fresnel = 0.10 + 0.7 * (grazing * grazing) * (grazing * grazing);
     vec3 mirrored = reflect(-to_camera, surface.world_normal);
-    return environmentSpecular(mirrored, surface.shininess) * (surface.specular * fresnel);
+    // the roughness whose highlight is as wide as Blinn's (Walter et al. 2007): alpha^2 = 2 / (shininess + 2)
+    float roughness = sqrt(sqrt(2.0 / (surface.shininess + 2.0)));
+    return environmentSpecular(mirrored, roughness) * (surface.specular * fresnel);
 }
 // end excerpt
 #endif

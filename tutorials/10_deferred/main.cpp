@@ -4,7 +4,7 @@
 #include "06_gbuffer/gbuffer.hpp"
 #include "06_gbuffer/scene.hpp"
 #include "07_shadow_map/shadow_map.hpp"
-#include "environment.hpp"
+#include "09_environment_light/environment.hpp"
 #include "run/run.hpp"
 #include "rung/camera.hpp"
 
@@ -33,12 +33,7 @@ struct DeferredOptions {
     Toggle sun = all.toggle("sun", true, "the directional light, with its shadow");
     Toggle points = all.toggle("points", true, "the three coloured lights");
     Toggle environment = all.toggle("environment", true, "ambient and reflected light");
-    Choice environment_diffuse =
-        all.choice("environment_diffuse", "raw", {"raw", "sh9"},
-                   "light on matt surfaces: one fetch along the normal, or nine coefficients");
-    Choice environment_specular =
-        all.choice("environment_specular", "raw", {"raw", "prefiltered"},
-                   "reflections: one fetch, or mip levels filtered for the surface's roughness");
+    environment_light::EnvironmentOptions environment_light{all};
     ToneMapOptions display{all, "clamp", "gamma22"};
     Choice view = all.choice(
         "view", "lit",
@@ -171,27 +166,18 @@ class Deferred final : public Rung {
 
     // excerpt: lighting
     void light(Frame& frame) {
-        ShaderPart part =
-            gbuffer_.part(view_, options_.gbuffer) + shadow_.part(sun_, options_.shadow) +
-            ShaderPart{.defines = options_.view.defines() + options_.ssao.defines() +
-                                  options_.ssao_resolution.defines() +
-                                  options_.environment_diffuse.defines() +
-                                  options_.environment_specular.defines() +
-                                  Defines{{"SUN", options_.sun ? "1" : "0"},
-                                          {"POINTS", options_.points ? "1" : "0"},
-                                          {"ENVIRONMENT", options_.environment ? "1" : "0"}},
-                       .inputs = {{"ssao_map", occlusion().color()}, {"environment_map", environment_.map()}},
-                       .uniforms = {{"view_z_from_world", glm::row(view_.view_from_world, 2)},
-                                    {"point_position", point_positions_},
-                                    {"point_color", point_colors_}}};
+        ShaderPart part = gbuffer_.part(view_, options_.gbuffer) + shadow_.part(sun_, options_.shadow) +
+                          ShaderPart{.defines = options_.view.defines() + options_.ssao.defines() +
+                                                options_.ssao_resolution.defines() +
+                                                Defines{{"SUN", options_.sun ? "1" : "0"},
+                                                        {"POINTS", options_.points ? "1" : "0"},
+                                                        {"ENVIRONMENT", options_.environment ? "1" : "0"}},
+                                     .inputs = {{"ssao_map", occlusion().color()}},
+                                     .uniforms = {{"view_z_from_world", glm::row(view_.view_from_world, 2)},
+                                                  {"point_position", point_positions_},
+                                                  {"point_color", point_colors_}}};
+        if (options_.environment) part += environment_.part(options_.environment_light);
         const Program& program = shaders_.fullScreen("10_deferred/lighting.frag", part.defines);
-        // made when first used: neither is quick
-        if (program.uniforms().contains("irradiance_sh"))
-            part.uniforms.push_back({"irradiance_sh", environment_.irradiance()});
-        if (program.uniforms().contains("prefiltered_map")) {
-            part.inputs.push_back({"prefiltered_map", environment_.prefiltered()});
-            part.uniforms.push_back({"prefiltered_levels", float(Environment::last_level)});
-        }
         frame.pass("lighting", lit_, {.program = program, .part = part, .clear_color = glm::vec4(0)});
     }
     // end excerpt
@@ -233,7 +219,7 @@ class Deferred final : public Rung {
     ShaderLibrary& shaders_;
     const Options& options_;
     gbuffer::Scene scene_;
-    Environment environment_;
+    environment_light::Environment environment_;
     gbuffer::GBuffer gbuffer_;
     shadow_map::ShadowMap shadow_;
     Mesh filmstrip_ = makeFilmstrip();

@@ -1,5 +1,5 @@
 // Environment light against integrals done the slow way.
-#include "10_deferred/environment.hpp"
+#include "09_environment_light/environment.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +10,8 @@
 
 namespace gll::test {
 namespace {
+
+using namespace gll::environment_light;
 
 constexpr double pi = std::numbers::pi;
 

@@ -292,14 +292,14 @@ TEST_F(DeferredShader, theEnvironmentHasNoSeam) {
     }
     const Framebuffer target({{.name = "light", .format = Format::r32f}}, {128, 64});
     draw(target, {.program = program(R"(
-#include "10_deferred/environment.glsl"
+#include "09_environment_light/environment.glsl"
 in vec2 uv;
 out float light;
 void main() {
     float around = 12.566 * uv.x;
     float height = 2.0 * uv.y - 1.0;
     vec3 direction = vec3(sqrt(1.0 - height * height) * vec2(cos(around), sin(around)), height).xzy;
-    light = environmentDiffuse(direction).r + environmentSpecular(direction, 24.0).r;
+    light = environmentDiffuse(direction).r + environmentSpecular(direction, 0.5).r;
 }
 )",
                                      {{"ENVIRONMENT_DIFFUSE_RAW", "0"},

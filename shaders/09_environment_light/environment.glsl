@@ -1,5 +1,5 @@
 // Light from the environment map: an equirectangular picture in linear light, all round the scene.
-#include "10_deferred/equirectangular.glsl"
+#include "09_environment_light/equirectangular.glsl"
 
 #if ENVIRONMENT_DIFFUSE == ENVIRONMENT_DIFFUSE_RAW || ENVIRONMENT_SPECULAR == ENVIRONMENT_SPECULAR_RAW
 uniform sampler2D environment_map;
@@ -27,12 +27,10 @@ vec3 environmentDiffuse(vec3 direction) {
 #endif
 }
 
-vec3 environmentSpecular(vec3 direction, float shininess) {
+vec3 environmentSpecular(vec3 direction, float roughness) {
 #if ENVIRONMENT_SPECULAR == ENVIRONMENT_SPECULAR_RAW
     return textureLod(environment_map, equirectangularUv(direction), 0.0).rgb;
 #else
-    // the roughness whose highlight is as wide as Blinn's (Walter et al. 2007): alpha^2 = 2 / (shininess + 2)
-    float roughness = sqrt(sqrt(2.0 / (shininess + 2.0)));
     return textureLod(prefiltered_map, equirectangularUv(direction), roughness * prefiltered_levels).rgb;
 #endif
 }

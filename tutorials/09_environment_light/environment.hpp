@@ -2,8 +2,9 @@
 // glossy reflection. Everything but the picture itself is made when first asked for.
 #pragma once
 
-#include "gl/texture.hpp"
+#include "gl/pass.hpp"
 #include "io/image.hpp"
+#include "rung/settings.hpp"
 #include "rung/warnings.hpp"
 
 #include <array>
@@ -12,7 +13,17 @@
 #include <optional>
 #include <vector>
 
-namespace gll {
+namespace gll::environment_light {
+
+struct EnvironmentOptions {
+    // Declares the settings. Every rung but 09 shares them.
+    explicit EnvironmentOptions(Settings& settings);
+
+    Choice diffuse;
+    Choice specular;
+
+    Defines defines() const { return diffuse.defines() + specular.defines(); }
+};
 
 // Irradiance over pi, so that a white matt surface shows it as its radiance, as a polynomial of the normal
 // n = (x, y, z), in the order 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2: the spherical harmonics of order 2
@@ -29,16 +40,19 @@ class Environment {
   public:
     Environment(const std::filesystem::path& path, Warnings& warnings);
 
-    const Texture& map() const { return map_; }
-    const std::vector<glm::vec3>& irradiance();
-    const Texture& prefiltered(); // mip level i holds roughness i / last_level
-    static constexpr int last_level = 5;
+    // For shaders that include 09_environment_light/environment.glsl. Valid until the next call.
+    ShaderPart part(const EnvironmentOptions& options);
 
   private:
+    static constexpr int last_level = 5; // of the prefiltered map: level i holds roughness i / last_level
+
+    const std::vector<glm::vec3>& irradiance();
+    const Texture& prefiltered();
+
     Image image_; // RGB float, finite
     Texture map_;
     std::vector<glm::vec3> irradiance_;
     std::optional<Texture> prefiltered_;
 };
 
-} // namespace gll
+} // namespace gll::environment_light

@@ -8,7 +8,19 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace gll {
+namespace gll::environment_light {
+
+// excerpt: settings
+EnvironmentOptions::EnvironmentOptions(Settings& settings)
+    : diffuse(settings.choice("environment_diffuse", "raw", {"raw", "sh9"},
+                              "light on matt surfaces: one fetch along the normal, or nine coefficients")),
+      specular(
+          settings.choice("environment_specular", "raw", {"raw", "prefiltered"},
+                          "reflections: one fetch, or mip levels filtered for the surface's roughness")) {
+    settings.shared("09_environment_light", {"environment_diffuse", "environment_specular"});
+}
+// end excerpt
+
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -206,6 +218,16 @@ Environment::Environment(const std::filesystem::path& path, Warnings& warnings)
     warnings.add(image_.warnings);
 }
 
+ShaderPart Environment::part(const EnvironmentOptions& options) {
+    ShaderPart part{.defines = options.defines(), .inputs = {{"environment_map", map_}}};
+    if (options.diffuse == "sh9") part.uniforms.push_back({"irradiance_sh", irradiance()});
+    if (options.specular == "prefiltered") {
+        part.inputs.push_back({"prefiltered_map", prefiltered()});
+        part.uniforms.push_back({"prefiltered_levels", float(last_level)});
+    }
+    return part;
+}
+
 const std::vector<glm::vec3>& Environment::irradiance() {
     if (irradiance_.empty())
         for (const glm::dvec3& coefficient : irradianceCoefficients(image_))
@@ -225,4 +247,4 @@ const Texture& Environment::prefiltered() {
     return *prefiltered_;
 }
 
-} // namespace gll
+} // namespace gll::environment_light
