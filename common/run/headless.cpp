@@ -111,6 +111,31 @@ class Progress {
     std::chrono::steady_clock::time_point last_ = start_;
 };
 
+// The renderer of some files, made anew where a line of a batch names others.
+class RendererOfFiles {
+  public:
+    RendererOfFiles(Context& context, const RungInfo& info) : context_(context), info_(info) {}
+
+    Renderer& operator()(const RungFiles& files) {
+        if (!renderer_ || files != given_) {
+            renderer_.reset();
+            renderer_.emplace(context_, info_, files);
+            given_ = files;
+        }
+        return *renderer_;
+    }
+
+  private:
+    Context& context_;
+    const RungInfo& info_;
+    std::optional<Renderer> renderer_;
+    RungFiles given_;
+};
+
+std::vector<FrameRequest> requestsOf(const Options& options) {
+    return options.is_batch ? options.batch : std::vector<FrameRequest>{options.request};
+}
+
 std::size_t frameCount(const FrameRequest& request) {
     return static_cast<std::size_t>((request.last_frame - request.first_frame) / request.step) + 1;
 }
@@ -240,6 +265,72 @@ nlohmann::ordered_json settingJson(const Setting& setting) {
     return json;
 }
 
+// What is drawn with some settings, or why that is not known.
+struct Drawn {
+    std::vector<std::string> targets = {};
+    std::vector<std::string> passes = {};
+    std::string renderer = {};
+    std::string unknown = {};
+};
+
+Drawn drawnBy(RendererOfFiles& rendererFor, const FrameRequest& request) {
+    Drawn result;
+    try {
+        Renderer& small = rendererFor(request.files);
+        const auto& drawn = small.render(1, {64, 64});
+        const GlInfo& gl = small.context().info();
+        result.renderer = gl.renderer + ", " + gl.version;
+        result.targets = targetNames(drawn);
+        for (const DrawnPass& pass : drawn)
+            result.passes.push_back(pass.name);
+    } catch (const std::runtime_error& error) {
+        return {.unknown = error.what()};
+    }
+    return result;
+}
+
+void print(const Drawn& drawn, const Options& options, const RungInfo& info, const Settings& settings) {
+    if (options.json) {
+        nlohmann::ordered_json json{{"rung", info.name}, {"summary", info.summary}};
+        for (const Setting& setting : settings.all())
+            json["settings"].push_back(settingJson(setting));
+        for (const Settings::Preset& preset : settings.presets())
+            json["presets"].push_back(
+                {{"name", preset.name}, {"help", preset.help}, {"values", preset.values}});
+        for (const Settings::Dial& dial : settings.dials())
+            json["dials"].push_back({{"setting", dial.setting}, {"values", dial.values}});
+        json["targets"] = drawn.targets;
+        json["passes"] = drawn.passes;
+        if (drawn.unknown.empty()) json["renderer"] = drawn.renderer;
+        if (!drawn.unknown.empty()) json["targets_unknown"] = drawn.unknown;
+        std::printf("%s\n", json.dump(options.is_batch ? -1 : 2).c_str());
+        return;
+    }
+    std::printf("%s: %s\n\nsettings (--set KEY=VALUE)\n", info.name.c_str(), info.summary.c_str());
+    for (const Setting& setting : settings.all()) {
+        Setting at_default = setting;
+        at_default.value = setting.default_value;
+        std::printf("  %-18s %-18s %s\n  %-18s %-18s (%s)\n", setting.name.c_str(), at_default.text().c_str(),
+                    setting.help.c_str(), "", "", range(setting).c_str());
+    }
+    std::printf("\npresets (--preset NAME)\n");
+    for (const Settings::Preset& preset : settings.presets())
+        std::printf("  %-18s %s\n", preset.name.c_str(), preset.help.c_str());
+    if (!settings.dials().empty()) {
+        std::printf("\nwhat --budget chooses from, the most accurate first\n");
+        for (const Settings::Dial& dial : settings.dials())
+            std::printf("  %-18s %s\n", dial.setting.c_str(),
+                        dial.values.empty() ? "from what it is set to downwards"
+                                            : joined(dial.values).c_str());
+    }
+    if (drawn.unknown.empty())
+        std::printf("\ntargets (--target NAME: as they are when the frame ends)\n  %s\n\npasses (--target "
+                    "NAME: right after the pass)\n  %s\n",
+                    joined(drawn.targets).c_str(), joined(drawn.passes).c_str());
+    else
+        std::printf("\ntargets and passes need an OpenGL context: %s\n", drawn.unknown.c_str());
+}
+
 } // namespace
 
 int reportError(const RungInfo& info, std::string message, int exit_code) {
@@ -251,19 +342,9 @@ int reportError(const RungInfo& info, std::string message, int exit_code) {
 int runHeadless(const Options& options, const RungInfo& info, Settings& settings) {
     std::signal(SIGINT, onInterrupt);
     const std::unique_ptr<Context> context = makeHeadlessContext(options.context);
-    std::optional<Renderer> renderer; // made anew where a line of a batch names other files
-    RungFiles given;
-    const auto rendererFor = [&](const RungFiles& files) -> Renderer& {
-        if (!renderer || files != given) {
-            renderer.reset();
-            renderer.emplace(*context, info, files);
-            given = files;
-        }
-        return *renderer;
-    };
+    RendererOfFiles rendererFor(*context, info);
     Progress progress;
-    std::vector<FrameRequest> requests =
-        options.is_batch ? options.batch : std::vector<FrameRequest>{options.request};
+    std::vector<FrameRequest> requests = requestsOf(options);
     if (options.budget &&
         !applyBudget(rendererFor(requests[0].files), requests[0], options, info, settings, progress))
         return 130;
@@ -324,61 +405,21 @@ int runHeadless(const Options& options, const RungInfo& info, Settings& settings
 }
 
 int listSettings(const Options& options, const RungInfo& info, Settings& settings) {
-    std::vector<std::string> targets;
-    std::vector<std::string> passes;
-    std::string drawn_by;
-    std::string reason;
-    options.request.applyTo(settings); // targets and passes depend on the settings
+    std::unique_ptr<Context> context;
+    std::string no_context;
     try {
-        const auto context = makeHeadlessContext(ContextKind::headless);
-        drawn_by = context->info().renderer + ", " + context->info().version;
-        Renderer small(*context, info, options.request.files);
-        const auto& drawn = small.render(1, {64, 64});
-        targets = targetNames(drawn);
-        for (const DrawnPass& pass : drawn)
-            passes.push_back(pass.name);
+        context = makeHeadlessContext(ContextKind::headless);
     } catch (const std::runtime_error& error) {
-        reason = error.what();
+        no_context = error.what();
     }
-    if (options.json) {
-        nlohmann::ordered_json json{{"rung", info.name}, {"summary", info.summary}};
-        for (const Setting& setting : settings.all())
-            json["settings"].push_back(settingJson(setting));
-        for (const Settings::Preset& preset : settings.presets())
-            json["presets"].push_back(
-                {{"name", preset.name}, {"help", preset.help}, {"values", preset.values}});
-        for (const Settings::Dial& dial : settings.dials())
-            json["dials"].push_back({{"setting", dial.setting}, {"values", dial.values}});
-        json["targets"] = targets;
-        json["passes"] = passes;
-        if (reason.empty()) json["renderer"] = drawn_by;
-        if (!reason.empty()) json["targets_unknown"] = reason;
-        std::printf("%s\n", json.dump(2).c_str());
-        return 0;
+    std::optional<RendererOfFiles> rendererFor;
+    if (context) rendererFor.emplace(*context, info);
+    for (const FrameRequest& request : requestsOf(options)) {
+        request.applyTo(settings); // targets and passes depend on the settings
+        Drawn drawn{.unknown = no_context};
+        if (rendererFor) drawn = drawnBy(*rendererFor, request);
+        print(drawn, options, info, settings);
     }
-    std::printf("%s: %s\n\nsettings (--set KEY=VALUE)\n", info.name.c_str(), info.summary.c_str());
-    for (const Setting& setting : settings.all()) {
-        Setting at_default = setting;
-        at_default.value = setting.default_value;
-        std::printf("  %-18s %-18s %s\n  %-18s %-18s (%s)\n", setting.name.c_str(), at_default.text().c_str(),
-                    setting.help.c_str(), "", "", range(setting).c_str());
-    }
-    std::printf("\npresets (--preset NAME)\n");
-    for (const Settings::Preset& preset : settings.presets())
-        std::printf("  %-18s %s\n", preset.name.c_str(), preset.help.c_str());
-    if (!settings.dials().empty()) {
-        std::printf("\nwhat --budget chooses from, the most accurate first\n");
-        for (const Settings::Dial& dial : settings.dials())
-            std::printf("  %-18s %s\n", dial.setting.c_str(),
-                        dial.values.empty() ? "from what it is set to downwards"
-                                            : joined(dial.values).c_str());
-    }
-    if (reason.empty())
-        std::printf("\ntargets (--target NAME: as they are when the frame ends)\n  %s\n\npasses (--target "
-                    "NAME: right after the pass)\n  %s\n",
-                    joined(targets).c_str(), joined(passes).c_str());
-    else
-        std::printf("\ntargets and passes need an OpenGL context: %s\n", reason.c_str());
     return 0;
 }
 

@@ -14,7 +14,7 @@ int reportError(const RungInfo& info, std::string message, int exit_code);
 int runHeadless(const Options& options, const RungInfo& info, Settings& settings);
 
 // --settings: settings, presets, and, from a small frame rendered for the purpose, targets and passes. Where
-// no context is to be had, those two are left out and the reason is printed.
+// no context is to be had, those two are left out and the reason is printed. Of a batch, once for each line.
 int listSettings(const Options& options, const RungInfo& info, Settings& settings);
 
 } // namespace gll

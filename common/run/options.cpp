@@ -206,7 +206,7 @@ std::string readBounded(const std::string& file) {
 }
 
 std::vector<FrameRequest> readBatch(const std::string& file, const FrameRequest& base, const RungInfo& info,
-                                    Settings& settings) {
+                                    Settings& settings, bool only_listed) {
     std::error_code error;
     if (std::filesystem::is_directory(file, error)) throw std::runtime_error(file + ": is a folder");
     std::istringstream stream(readBounded(file));
@@ -218,7 +218,8 @@ std::vector<FrameRequest> readBatch(const std::string& file, const FrameRequest&
             requests.push_back(parseBatchLine(line, base, info));
             requests.back().batch_line = file + ":" + std::to_string(number);
             checkSettings(requests.back(), settings);
-            if (requests.back().out.empty() && !requests.back().readings && !requests.back().cost)
+            if (!only_listed && requests.back().out.empty() && !requests.back().readings &&
+                !requests.back().cost)
                 throw UsageError(
                     "names no \"out\" and asks for no \"readings\" or \"cost\", so nothing would come of it");
         } catch (const UsageError& usage) {
@@ -318,7 +319,8 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
         ->type_name("PASS:X,Y:VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_flag("--settings", options.list_settings, "list settings, presets, targets and passes");
+    app.add_flag("--settings", options.list_settings,
+                 "list settings, presets, targets and passes; with --batch for each of its lines");
     app.add_option("--batch", batch, "many frames in one process: a JSON object a line, keys as the options")
         ->type_name("FILE");
     app.add_flag("--readings", options.request.readings,
@@ -394,7 +396,8 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
     checkRequest(options.request);
     checkSettings(options.request, settings);
     options.is_batch = !batch.empty();
-    if (options.is_batch) options.batch = readBatch(batch, options.request, info, settings);
+    if (options.is_batch)
+        options.batch = readBatch(batch, options.request, info, settings, options.list_settings);
     return options;
 }
 

@@ -3,6 +3,7 @@
 #include "hostile/hostile.hpp"
 
 #include <ostream>
+#include <sstream>
 
 namespace gll::test {
 namespace {
@@ -69,6 +70,29 @@ INSTANTIATE_TEST_SUITE_P(
         BatchCase{"outPattern", R"({"out": "%s.png"})", {"%s.png"}}, BatchCase{"outNumber", R"({"out": 3})"},
         BatchCase{"sequenceIntoOneFile", R"({"frames": "1..2", "out": "a.png"})", {"%d"}}),
     [](const auto& row) { return std::string(row.param.name); });
+
+TEST(BatchFile, isListedLineByLine) {
+    const TemporaryFolder folder;
+    const auto listed = [&](const std::string& lines) {
+        return run(rungCommand(
+            folder, {"--settings", "--json", "--batch", folder.write("batch.jsonl", lines).string()}));
+    };
+    const Result both = listed(R"({"set": {"bloom": "on"}})"
+                               "\n"
+                               R"({"set": {"bloom": "off"}, "out": "never.png"})");
+    EXPECT_EQ(both.exit_code, 0) << both.err;
+    std::istringstream lines(both.out);
+    std::string on, off, none;
+    std::getline(lines, on);
+    std::getline(lines, off);
+    EXPECT_FALSE(std::getline(lines, none)) << none;
+    EXPECT_EQ(on, listed(R"({"set": {"bloom": "on"}})").out.substr(0, on.size()));
+    EXPECT_EQ(off, listed(R"({"set": {"bloom": "off"}})").out.substr(0, off.size()));
+    EXPECT_NE(on.find("\"up1\""), std::string::npos) << on;
+    EXPECT_EQ(off.find("\"up1\""), std::string::npos) << off;
+    EXPECT_EQ(folder.listing(), std::vector<std::string>{"batch.jsonl"});
+    expectRefusal(listed(R"({"set": {"blom": "on"}})"), 2, {"batch.jsonl:1", "did you mean bloom?"});
+}
 
 TEST(BatchFile, thatIsMissingIsNamed) {
     checkRefusal({"", {"--batch", "{}/missing.jsonl"}, 1, {"missing.jsonl"}});

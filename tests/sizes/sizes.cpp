@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <span>
+#include <sstream>
 #include <stdexcept>
 
 namespace {
@@ -47,10 +48,25 @@ std::string whatIsWrong(const Frame& frame) {
     return firstNotFinite(image);
 }
 
-nlohmann::json listed(const std::filesystem::path& rung, const std::string& setting) {
-    std::vector<std::string> arguments = {"--settings", "--json"};
-    if (!setting.empty()) arguments.insert(arguments.end(), {"--set", setting});
-    return nlohmann::json::parse(runToSuccess({rung, arguments}).out);
+nlohmann::json listed(const std::filesystem::path& rung) {
+    return nlohmann::json::parse(runToSuccess({rung, {"--settings", "--json"}}).out);
+}
+
+// The targets that there are with each of some settings.
+std::vector<std::vector<std::string>> targetsWith(const std::filesystem::path& rung,
+                                                  const std::vector<std::string>& settings,
+                                                  const TemporaryFolder& folder) {
+    std::string lines;
+    for (const std::string& setting : settings)
+        lines += nlohmann::json{{"set", {setting}}}.dump() + "\n";
+    std::istringstream printed(
+        runToSuccess({rung, {"--settings", "--json", "--batch", folder.write("list.jsonl", lines).string()}})
+            .out);
+    std::vector<std::vector<std::string>> targets;
+    for (std::string line; std::getline(printed, line);)
+        targets.push_back(nlohmann::json::parse(line).at("targets"));
+    if (targets.size() != settings.size()) throw std::runtime_error("the rung does not list every line");
+    return targets;
 }
 
 // Each setting as NAME=VALUE at all its choices, or at both ends of its range.
@@ -76,8 +92,8 @@ int check(const std::filesystem::path& rung, bool every_setting) {
     const TemporaryFolder folder;
     std::vector<Frame> frames;
     std::string lines;
-    const auto add = [&](const std::string& setting, std::span<const char* const> its_sizes) {
-        std::vector<std::string> targets = listed(rung, setting).at("targets");
+    const auto add = [&](const std::string& setting, std::vector<std::string> targets,
+                         std::span<const char* const> its_sizes) {
         if (targets.empty()) throw std::runtime_error("the rung lists no targets");
         targets.emplace_back();
         for (const char* size : its_sizes)
@@ -90,11 +106,15 @@ int check(const std::filesystem::path& rung, bool every_setting) {
                 lines += line.dump() + "\n";
             }
     };
-    if (every_setting)
-        for (const std::string& setting : everySetting(listed(rung, "").at("settings")))
-            add(setting, small_sizes);
-    else
-        add("", sizes);
+    const nlohmann::json by_default = listed(rung);
+    if (every_setting) {
+        const std::vector<std::string> settings = everySetting(by_default.at("settings"));
+        const auto targets = targetsWith(rung, settings, folder);
+        for (std::size_t i = 0; i < settings.size(); ++i)
+            add(settings[i], targets[i], small_sizes);
+    } else {
+        add("", by_default.at("targets"), sizes);
+    }
     runToSuccess({rung, {"--headless", "--batch", folder.write("batch.jsonl", lines).string()}});
     int failures = 0;
     for (const Frame& frame : frames) {
