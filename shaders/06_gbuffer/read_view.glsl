@@ -21,6 +21,10 @@ uniform vec2 view_z_from_depth; // view z = x / (depth + y)
 uniform vec2 view_from_ndc;     // view xy = ndc * this * -view z
 #endif
 
+#if STORES_GEOMETRIC
+uniform sampler2D geometric_map;
+#endif
+
 const float background_view_z = -1.0e3; // beyond any far plane: what is as far is background
 
 #if STORES_POSITION
@@ -60,5 +64,27 @@ vec3 viewNormalAt(vec2 uv) {
     return mat3(view_from_world) * packedNormal(wordsOf(textureLod(packed_map, uv, 0.0)));
 #else
     return mat3(view_from_world) * unpackNormal(textureLod(normal_map, uv, 0.0));
+#endif
+}
+
+// The normal of the surface itself, without its normal map, from the positions beside it: see read_gbuffer.glsl.
+vec3 viewNormalFromDepth(vec2 uv, vec3 view_position) {
+    vec2 texel = 1.0 / gbufferSize();
+    vec3 left = view_position - viewPositionAt(uv - vec2(texel.x, 0.0));
+    vec3 right = viewPositionAt(uv + vec2(texel.x, 0.0)) - view_position;
+    vec3 below = view_position - viewPositionAt(uv - vec2(0.0, texel.y));
+    vec3 above = viewPositionAt(uv + vec2(0.0, texel.y)) - view_position;
+    vec3 across = abs(left.z) < abs(right.z) ? left : right;
+    vec3 up = abs(below.z) < abs(above.z) ? below : above;
+    vec3 normal = cross(across, up); // towards the camera, as x, y and it are right-handed
+    return normal * inversesqrt(max(dot(normal, normal), 1e-30));
+}
+
+// The same where the G-buffer stores it.
+vec3 viewGeometricNormalAt(vec2 uv, vec3 view_position) {
+#if STORES_GEOMETRIC
+    return mat3(view_from_world) * directionFromOctahedral(textureLod(geometric_map, uv, 0.0).rg);
+#else
+    return viewNormalFromDepth(uv, view_position);
 #endif
 }

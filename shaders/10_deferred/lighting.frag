@@ -7,20 +7,12 @@
 #if ENVIRONMENT
 #include "09_environment_light/environment.glsl"
 #endif
-#if SSAO != SSAO_OFF && SSAO_RESOLUTION == SSAO_RESOLUTION_HALF
-#include "10_deferred/same_surface.glsl"
-#endif
+#include "08_ssao/read_ssao.glsl"
 
 in vec2 uv;
 
 #if STORES_POSITION
 uniform vec3 camera_position; // world
-#endif
-#if SSAO != SSAO_OFF
-uniform sampler2D ssao_map; // r: [0, 1]; at half resolution also g: view z
-#if SSAO_RESOLUTION == SSAO_RESOLUTION_HALF
-uniform vec4 view_z_from_world;
-#endif
 #endif
 #if SUN
 uniform vec3 to_sun;          // world, unit length
@@ -100,28 +92,6 @@ vec3 reflectedLight(Surface surface, vec3 to_camera) {
 // end excerpt
 #endif
 
-// excerpt: upsample
-#if SSAO == SSAO_OFF
-float visibilityAt(vec3 world_position) { return 1.0; }
-#elif SSAO_RESOLUTION == SSAO_RESOLUTION_FULL
-float visibilityAt(vec3 world_position) { return textureLod(ssao_map, uv, 0.0).r; }
-#else
-// Every second pixel has its own; those between take the mean of two neighbours, across or along a diagonal, or of one
-// where the other shows another surface.
-float visibilityAt(vec3 world_position) {
-    float view_z = dot(view_z_from_world, vec4(world_position, 1.0));
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
-    vec2 texel = 1.0 / vec2(textureSize(ssao_map, 0));
-    vec2 low = (vec2(pixel >> 1) + 0.5) * texel;
-    vec2 one = textureLod(ssao_map, low, 0.0).rg;
-    vec2 other = textureLod(ssao_map, low + vec2(pixel & 1) * texel, 0.0).rg;
-    float one_weight = sameSurface(view_z, one.g) + 1e-3; // where neither is near, both count alike
-    float other_weight = sameSurface(view_z, other.g) + 1e-3;
-    return (one_weight * one.r + other_weight * other.r) / (one_weight + other_weight);
-}
-#endif
-// end excerpt
-
 // excerpt: lighting
 vec3 litColor(Surface surface, float visibility) {
     vec3 to_camera = normalize(camera_position - surface.world_position);
@@ -130,7 +100,7 @@ vec3 litColor(Surface surface, float visibility) {
 #if VIEW == VIEW_SUN && SUN
     return vec3(visibleSun(surface));
 #elif VIEW == VIEW_AMBIENT && ENVIRONMENT
-    return ambientLight(surface.world_normal) * visibility;
+    return ambientLight(surface.world_normal) * visibilityOfColor(visibility, surface.albedo);
 #elif VIEW == VIEW_REFLECTED && ENVIRONMENT
     return reflectedLight(surface, to_camera) * visibility;
 #elif VIEW == VIEW_SUN || VIEW == VIEW_AMBIENT || VIEW == VIEW_REFLECTED
@@ -144,7 +114,8 @@ vec3 litColor(Surface surface, float visibility) {
 #endif
     light *= mix(occluded_light, 1.0, visibility);
 #if ENVIRONMENT
-    light += (ambientLight(surface.world_normal) + reflectedLight(surface, to_camera)) * visibility;
+    light += ambientLight(surface.world_normal) * visibilityOfColor(visibility, surface.albedo) +
+             reflectedLight(surface, to_camera) * visibility;
 #endif
     return surface.albedo * light;
 }
@@ -152,6 +123,6 @@ vec3 litColor(Surface surface, float visibility) {
 void main() {
     vec4 position = positionAt(uv);
     if (position.w == 0.0) discard; // the background stays as it was cleared
-    lit_color = vec4(litColor(surfaceAt(uv, position), visibilityAt(position.xyz)), 1.0);
+    lit_color = vec4(litColor(surfaceAt(uv, position), visibilityAt(uv, position.xyz)), 1.0);
 }
 // end excerpt

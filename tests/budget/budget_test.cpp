@@ -230,6 +230,7 @@ const std::vector<Case> optima = {
     {"04_pyramid_bloom", "flip=0.03", {{"levels", "2"}}, "recommended", "swarm"},
     {"05_hdr_bloom", "flip=0.06", {{"levels", "3"}, {"intensity", "0.1"}}, "recommended", "swarm"},
     {"07_shadow_map", "flip=0.02", {{"scene", "plot"}}, "recommended"},
+    {"08_ssao", "flip=0.02", {{"scene", "room"}}, "recommended"},
 };
 
 // Rungs whose combinations take too long to try: why, and a budget that the search keeps anyhow.

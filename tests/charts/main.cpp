@@ -4,6 +4,7 @@
 #include "charts/formats.hpp"
 #include "charts/gbuffer.hpp"
 #include "charts/shadow.hpp"
+#include "charts/ssao.hpp"
 #include "charts/tone.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -29,6 +30,7 @@ const std::map<std::string, Family> families = {
     {"formats", {gll::charts::measureFormatCosts, gll::charts::drawFormatCharts}},
     {"gbuffer", {gll::charts::measureGbufferCosts, gll::charts::drawGbufferCharts}},
     {"shadow", {gll::charts::measureShadowCosts, gll::charts::drawShadowCharts}},
+    {"ssao", {gll::charts::measureSsaoCosts, gll::charts::drawSsaoCharts}},
     {"tone", {gll::charts::measureToneCosts, gll::charts::drawToneCharts}}};
 
 // The family's charts and tables in a folder; costs are measured, not drawn.

@@ -3,31 +3,12 @@
 #pragma once
 
 #include "measure/raster.hpp"
+#include "truth/rays.hpp"
 
-#include <cstdint>
 #include <glm/vec3.hpp>
-#include <memory>
-#include <span>
 #include <vector>
 
 namespace gll::truth {
-
-// Triangles to shoot rays at, in world space.
-class RayScene {
-  public:
-    RayScene(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices);
-    ~RayScene();
-    RayScene(const RayScene&) = delete;
-    RayScene& operator=(const RayScene&) = delete;
-
-    // How far along a unit vector the nearest triangle is, world units; infinity where there is none. What is
-    // nearer than 0.0005 is taken for the surface itself.
-    float distance(glm::vec3 origin, glm::vec3 direction) const;
-
-  private:
-    struct Embree;
-    std::unique_ptr<Embree> embree_;
-};
 
 // A shadow map's sun, as 07_shadow_map's fixed view has it.
 struct SunTruth {

@@ -2,6 +2,7 @@
 #include "scene.hpp"
 
 #include "gbuffer.hpp"
+#include "statue.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,9 +18,6 @@
 namespace gll::gbuffer {
 namespace {
 
-constexpr float statue_height = 2.2F;
-constexpr float statue_radius = 1.35F; // of the sphere round a model; the cat's is a little smaller
-constexpr float least_height = 0.005F;
 constexpr float floor_uv_per_unit = 0.35F;
 
 // Vertices grow by colors and second_uvs where there are any.
@@ -51,34 +49,12 @@ Mesh makeMesh(std::span<const Vertex> vertices, std::span<const std::uint32_t> i
                  .indices = indices});
 }
 
-// Stands on the floor with its middle on the y axis, as high as a statue and no wider than the circle in
-// which the camera sees all of it, and looks along +x, to where the camera is at first.
-Mesh makeStatue(const MeshData& data, const std::filesystem::path& path) {
-    glm::vec3 lowest = data.positions.front();
-    glm::vec3 highest = lowest;
-    for (const glm::vec3& position : data.positions) {
-        lowest = glm::min(lowest, position);
-        highest = glm::max(highest, position);
-    }
-    const glm::dvec3 middle = 0.5 * (glm::dvec3(lowest) + glm::dvec3(highest));
-    double radius = 0;
-    for (const glm::vec3& position : data.positions)
-        radius = std::max(radius, glm::distance(glm::dvec3(position), middle));
-    const float height = highest.y - lowest.y;
-    const float scale = std::min(statue_height / height, static_cast<float>(statue_radius / radius));
-    if (!std::isfinite(scale))
-        throw std::runtime_error(path.string() + ": all of its vertices lie at one place; export it again");
-    const glm::vec3 base(0.5F * (lowest.x + highest.x), lowest.y, 0.5F * (lowest.z + highest.z));
-    // What lies flat would fight with the floor for each pixel.
-    const glm::vec3 lift(0, height * scale < least_height ? least_height : 0.0F, 0);
-    const auto turned = [&](const glm::vec3& v) {
-        return data.front_is_positive_z ? glm::vec3(v.z, v.y, -v.x) : v;
-    };
+Mesh makeStatue(const MeshData& data, const StatuePlace& place) {
     std::vector<Vertex> vertices;
     vertices.reserve(data.positions.size());
     for (std::size_t i = 0; i < data.positions.size(); ++i)
         vertices.push_back(
-            {turned((data.positions[i] - base) * scale) + lift, turned(data.normals[i]), data.uvs[i]});
+            {place.position(data.positions[i]), place.direction(data.normals[i]), data.uvs[i]});
     return makeMesh(vertices, data.indices, data.colors, data.second_uvs);
 }
 
@@ -156,7 +132,7 @@ Scene::Scene(const RungResources& resources, float floor_half_width)
     warnings_.add(data.warnings);
     statue_has_colors_ = !data.colors.empty();
     statue_is_sheet_ = isSheet(data);
-    statue_ = makeStatue(data, mesh);
+    statue_ = makeStatue(data, StatuePlace(data, mesh));
     for (const MaterialData& material : data.materials)
         surfaces_.push_back({.data = withNormals(material),
                              .occluded_albedo = 0.55F,

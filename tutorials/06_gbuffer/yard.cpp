@@ -1,6 +1,8 @@
 // Balls and signs, as triangles.
 #include "yard.hpp"
 
+#include "solids.hpp"
+
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -19,28 +21,6 @@ void addRectangle(PlainObject& object, glm::vec3 corner, glm::vec2 size) {
 
 } // namespace
 
-PlainObject makeBall(glm::vec3 middle, float radius) {
-    constexpr std::uint32_t columns = 64;
-    constexpr std::uint32_t rows = 32;
-    constexpr double pi = 3.14159265358979324;
-    PlainObject ball;
-    for (std::uint32_t row = 0; row <= rows; ++row)
-        for (std::uint32_t column = 0; column <= columns; ++column) {
-            const glm::dvec2 uv(double(column) / columns, double(row) / rows);
-            const glm::vec3 normal(std::sin(pi * uv.y) * std::sin(2 * pi * uv.x), std::cos(pi * uv.y),
-                                   std::sin(pi * uv.y) * std::cos(2 * pi * uv.x));
-            ball.vertices.push_back({middle + radius * normal, normal, glm::vec2(uv)});
-        }
-    for (std::uint32_t row = 0; row < rows; ++row)
-        for (std::uint32_t column = 0; column < columns; ++column) {
-            const std::uint32_t a = row * (columns + 1) + column;
-            const std::uint32_t b = a + columns + 1;
-            for (const std::uint32_t index : {a, b, b + 1, a, b + 1, a + 1})
-                ball.indices.push_back(index);
-        }
-    return ball;
-}
-
 std::vector<PlainObject> makeYard() {
     std::vector<PlainObject> yard;
     struct Ball {
@@ -53,16 +33,14 @@ std::vector<PlainObject> makeYard() {
                              Ball{{-1.15F, 0.4F, 2.0F}, 0.4F, 1024, {0.03F, 0.08F, 0.25F}},
                              Ball{{1.2F, 0.4F, 2.1F}, 0.4F, 128, {0.25F, 0.05F, 0.03F}},
                              Ball{{2.3F, 0.6F, 1.0F}, 0.6F, 16, {0.06F, 0.2F, 0.05F}}}) {
-        PlainObject object = makeBall(ball.middle, ball.radius);
-        object.color = ball.color;
+        PlainObject object = plain(ball.color);
+        addBall(object, ball.middle, ball.radius);
         object.specular = 0.6F;
         object.shininess = ball.shininess;
         yard.push_back(object);
     }
-    PlainObject boards{
-        .vertices = {}, .indices = {}, .color = {0.05F, 0.05F, 0.06F}, .specular = 0, .shininess = 16};
-    PlainObject plates{
-        .vertices = {}, .indices = {}, .color = {0.8F, 0.35F, 0.05F}, .specular = 0, .shininess = 16};
+    PlainObject boards = plain({0.05F, 0.05F, 0.06F});
+    PlainObject plates = plain({0.8F, 0.35F, 0.05F});
     constexpr float sideways[] = {0.2F,  -0.2F,  0.34F, -0.34F,
                                   0.47F, -0.47F, 0.11F, -0.11F}; // of the distance
     for (std::size_t i = 0; i < std::size(sign_distances); ++i) {

@@ -12,9 +12,6 @@ namespace gll::gbuffer {
 inline constexpr float sign_distances[] = {10, 20, 40, 80, 160, 320, 640, 900};
 inline constexpr float sign_lift = 0.02F;
 
-// A ball of this radius about its middle; v runs from the top down.
-PlainObject makeBall(glm::vec3 middle, float radius);
-
 std::vector<PlainObject> makeYard();
 
 } // namespace gll::gbuffer

@@ -1,35 +1,15 @@
 // The plot, as triangles.
 #include "plot.hpp"
 
+#include "06_gbuffer/solids.hpp"
+
 #include <cmath>
 #include <cstdint>
 
 namespace gll::shadow_map {
 namespace {
 
-using gbuffer::PlainObject;
-
-// A flat quadrilateral, its corners counter-clockwise as seen from outside.
-void addQuad(PlainObject& object, glm::vec3 a, glm::vec3 b, glm::vec3 c, glm::vec3 d) {
-    const auto first = static_cast<std::uint32_t>(object.vertices.size());
-    const glm::vec3 normal = glm::normalize(glm::cross(b - a, c - a));
-    for (const glm::vec3& corner : {a, b, c, d})
-        object.vertices.push_back({corner, normal, {0, 0}});
-    for (const std::uint32_t index : {0U, 1U, 2U, 0U, 2U, 3U})
-        object.indices.push_back(first + index);
-}
-
-void addBox(PlainObject& object, glm::vec3 low, glm::vec3 high) {
-    const auto corner = [&](int x, int y, int z) {
-        return glm::vec3(x != 0 ? high.x : low.x, y != 0 ? high.y : low.y, z != 0 ? high.z : low.z);
-    };
-    addQuad(object, corner(1, 0, 1), corner(1, 0, 0), corner(1, 1, 0), corner(1, 1, 1));
-    addQuad(object, corner(0, 0, 0), corner(0, 0, 1), corner(0, 1, 1), corner(0, 1, 0));
-    addQuad(object, corner(0, 1, 1), corner(1, 1, 1), corner(1, 1, 0), corner(0, 1, 0));
-    addQuad(object, corner(0, 0, 0), corner(1, 0, 0), corner(1, 0, 1), corner(0, 0, 1));
-    addQuad(object, corner(0, 0, 1), corner(1, 0, 1), corner(1, 1, 1), corner(0, 1, 1));
-    addQuad(object, corner(1, 0, 0), corner(0, 0, 0), corner(0, 1, 0), corner(1, 1, 0));
-}
+using namespace gbuffer;
 
 // Half a cylinder lying on the ground along x, in facets of one and a half degrees: every slope there is.
 void addVault(PlainObject& object, float from_x, float to_x, float middle_z, float radius) {
@@ -40,10 +20,6 @@ void addVault(PlainObject& object, float from_x, float to_x, float middle_z, flo
     };
     for (int i = 0; i < facets; ++i)
         addQuad(object, rim(i, from_x), rim(i, to_x), rim(i + 1, to_x), rim(i + 1, from_x));
-}
-
-PlainObject plain(glm::vec3 color) {
-    return {.vertices = {}, .indices = {}, .color = color, .specular = 0, .shininess = 16};
 }
 
 } // namespace

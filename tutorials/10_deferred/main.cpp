@@ -4,13 +4,13 @@
 #include "06_gbuffer/gbuffer.hpp"
 #include "06_gbuffer/scene.hpp"
 #include "07_shadow_map/shadow_map.hpp"
+#include "08_ssao/ssao.hpp"
 #include "09_environment_light/environment.hpp"
 #include "run/run.hpp"
 #include "rung/camera.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace {
@@ -22,14 +22,7 @@ struct DeferredOptions {
     gbuffer::GBufferOptions gbuffer{all};
     gbuffer::SceneOptions scene{all};
     shadow_map::ShadowOptions shadow{all};
-    Choice ssao = all.choice("ssao", "seed", {"off", "seed", "blur", "gtao"},
-                             "ambient occlusion: none, noisy, with depth-aware blur, horizons with blur");
-    Choice ssao_resolution = all.choice("ssao_resolution", "full", {"full", "half"},
-                                        "occlusion for each pixel, or for a quarter of them");
-    Integer ssao_samples = all.integer("ssao_samples", 16, 1, 64, "occlusion samples a pixel");
-    Number ssao_radius = all.number("ssao_radius", 0.6, 0.01, 10, "how far occluders are sought, units");
-    Number ssao_bias = all.number("ssao_bias", 0.03, 0, 1, "how much nearer an occluder must be, units");
-    Number ssao_strength = all.number("ssao_strength", 1.7, 0, 10, "factor on the occlusion; not for gtao");
+    ssao::SsaoOptions ssao{all};
     Toggle sun = all.toggle("sun", true, "the directional light, with its shadow");
     Toggle points = all.toggle("points", true, "the three coloured lights");
     Toggle environment = all.toggle("environment", true, "ambient and reflected light");
@@ -75,14 +68,14 @@ class Deferred final : public Rung {
     Deferred(RungResources resources, const Options& options)
         : shaders_(resources.shaders), options_(options), scene_(resources),
           environment_(resources.file(&RungFiles::environment, "assets/sky/sky.hdr"), resources.warnings),
-          gbuffer_(resources.shaders), shadow_(resources.shaders) {}
+          gbuffer_(resources.shaders), shadow_(resources.shaders), ssao_(resources.shaders) {}
 
     void render(Frame& frame) override {
         setUp(frame);
         shadow_.draw(frame, sun_, view_, scene_.depthDraws(options_.scene), options_.shadow);
         gbuffer_.draw(frame, "geometry", view_, scene_.materialDraws(options_.scene),
                       options_.scene.defines(), options_.gbuffer);
-        drawOcclusion(frame);
+        ssao_.draw(frame, view_, gbuffer_.part(view_, options_.gbuffer), options_.ssao);
         light(frame);
         present(frame);
         if (options_.filmstrip) drawFilmstrip(frame);
@@ -114,68 +107,20 @@ class Deferred final : public Rung {
             const auto channel = [&](float phase) { return 0.5F + 0.5F * std::cos(number * 2.5F + phase); };
             point_colors_.push_back(1.4F * glm::vec3(channel(0), channel(2), channel(4)));
         }
-        makeTargets(frame.size());
-    }
-    // end excerpt
-
-    void makeTargets(glm::ivec2 size) {
-        lit_.resize(size);
-        if (!(options_.ssao == "off")) (halved() ? half_ssao_ : ssao_).resize(occlusionSize(size));
-        if (blurred())
-            for (Framebuffer& target : noisy_)
-                target.resize(occlusionSize(size));
-    }
-
-    bool halved() const { return options_.ssao_resolution == "half"; }
-    glm::ivec2 occlusionSize(glm::ivec2 size) const { return halved() ? (size + 1) / 2 : size; }
-    const Framebuffer& occlusion() const { return halved() ? half_ssao_ : ssao_; }
-    bool blurred() const { return options_.ssao == "blur" || options_.ssao == "gtao"; }
-
-    // excerpt: occlusion
-    void drawOcclusion(Frame& frame) {
-        if (options_.ssao == "off") return;
-        const int samples = options_.ssao_samples;
-        const ShaderPart gbuffer = gbuffer_.part(view_, options_.gbuffer);
-        Defines defines = gbuffer.defines + options_.ssao.defines() +
-                          Defines{{"WITH_VIEW_Z", blurred() || halved() ? "1" : "0"}};
-        if (!(options_.ssao == "gtao")) defines.push_back({"SSAO_SAMPLES", std::to_string(samples)});
-        const Program& program = shaders_.fullScreen("10_deferred/ssao.frag", defines);
-        const int slices = std::max(samples / 8, 1);
-        const glm::vec2 scale(view_.clip_from_view[0][0], view_.clip_from_view[1][1]);
-        frame.pass("ssao", blurred() ? noisy_[0] : occlusion(),
-                   {.program = program,
-                    .part = gbuffer + ShaderPart{.uniforms = {{"half_uv_from_view", 0.5F * scale},
-                                                              {"pixel_step", halved() ? 2 : 1},
-                                                              {"radius", options_.ssao_radius},
-                                                              {"slices", slices},
-                                                              {"steps", std::max(samples / (2 * slices), 1)},
-                                                              {"bias", options_.ssao_bias},
-                                                              {"strength", options_.ssao_strength}}}});
-        if (!blurred()) return;
-        for (const int axis : {0, 1}) {
-            glm::vec2 uv_step(0);
-            uv_step[axis] = 1.0F / static_cast<float>(noisy_[0].size()[axis]);
-            frame.pass(axis == 0 ? "ssao_blur_x" : "ssao_blur_y", axis == 0 ? noisy_[1] : occlusion(),
-                       {.program = shaders_.fullScreen("10_deferred/ssao_blur.frag",
-                                                       {{"WITH_VIEW_Z", axis == 0 || halved() ? "1" : "0"}}),
-                        .inputs = {{"occlusion", noisy_[axis == 0 ? 0 : 1].color()}},
-                        .uniforms = {{"uv_step", uv_step}}});
-        }
+        lit_.resize(frame.size());
     }
     // end excerpt
 
     // excerpt: lighting
     void light(Frame& frame) {
-        ShaderPart part = gbuffer_.part(view_, options_.gbuffer) + shadow_.part(sun_, options_.shadow) +
-                          ShaderPart{.defines = options_.view.defines() + options_.ssao.defines() +
-                                                options_.ssao_resolution.defines() +
-                                                Defines{{"SUN", options_.sun ? "1" : "0"},
-                                                        {"POINTS", options_.points ? "1" : "0"},
-                                                        {"ENVIRONMENT", options_.environment ? "1" : "0"}},
-                                     .inputs = {{"ssao_map", occlusion().color()}},
-                                     .uniforms = {{"view_z_from_world", glm::row(view_.view_from_world, 2)},
-                                                  {"point_position", point_positions_},
-                                                  {"point_color", point_colors_}}};
+        ShaderPart part =
+            gbuffer_.part(view_, options_.gbuffer) + shadow_.part(sun_, options_.shadow) +
+            ssao_.part(view_, options_.ssao) +
+            ShaderPart{.defines = options_.view.defines() +
+                                  Defines{{"SUN", options_.sun ? "1" : "0"},
+                                          {"POINTS", options_.points ? "1" : "0"},
+                                          {"ENVIRONMENT", options_.environment ? "1" : "0"}},
+                       .uniforms = {{"point_position", point_positions_}, {"point_color", point_colors_}}};
         if (options_.environment) part += environment_.part(options_.environment_light);
         const Program& program = shaders_.fullScreen("10_deferred/lighting.frag", part.defines);
         frame.pass("lighting", lit_, {.program = program, .part = part, .clear_color = glm::vec4(0)});
@@ -210,9 +155,9 @@ class Deferred final : public Rung {
     // What is shown of them, one full screen or four along the bottom.
     ShaderPart buffers(const Frame& frame) const {
         return gbuffer_.part(view_, options_.gbuffer) + shadow_.part(sun_, options_.shadow) +
-               ShaderPart{.defines = options_.view.defines() + options_.ssao.defines() +
-                                     options_.display.encode.defines(),
-                          .inputs = {{"ssao_map", occlusion().color()}, {"lit_map", lit_.color()}},
+               ssao_.part(view_, options_.ssao) +
+               ShaderPart{.defines = options_.view.defines() + options_.display.encode.defines(),
+                          .inputs = {{"lit_map", lit_.color()}},
                           .uniforms = {{"aspect", frame.aspect()}}};
     }
 
@@ -222,13 +167,8 @@ class Deferred final : public Rung {
     environment_light::Environment environment_;
     gbuffer::GBuffer gbuffer_;
     shadow_map::ShadowMap shadow_;
+    ssao::Ssao ssao_;
     Mesh filmstrip_ = makeFilmstrip();
-    Framebuffer ssao_{{{.name = "ssao", .format = Format::r8}}, {1, 1}};
-    Framebuffer half_ssao_{{{.name = "ssao", .format = Format::rg16f, .filter = Filter::nearest}}, {1, 1}};
-    std::array<Framebuffer, 2> noisy_{
-        Framebuffer({{.name = "ssao_noisy", .format = Format::rg16f, .filter = Filter::nearest}}, {1, 1}),
-        Framebuffer({{.name = "ssao_half_blurred", .format = Format::rg16f, .filter = Filter::nearest}},
-                    {1, 1})};
     Framebuffer lit_{{{.name = "lit", .format = Format::rgba16f, .filter = Filter::nearest}}, {1, 1}};
 
     // of the frame being drawn

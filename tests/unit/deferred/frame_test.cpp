@@ -50,7 +50,7 @@ class DeferredFrame : public testing::Test {
 TEST_F(DeferredFrame, isTheSameAfterTheWindowWasOnePixel) {
     render(R"({"size":"320x240","out":"OUT/before.png"}
 {"size":"1x1","out":"OUT/tiny.png"}
-{"size":"7x301","out":"OUT/odd.png","set":{"ssao":"blur","ssao_resolution":"half","normals":"oct16","positions":"depth24","gloss":"palette"}}
+{"size":"7x301","out":"OUT/odd.png","set":{"ssao_blur":"separable","ssao_resolution":"half","normals":"oct16","positions":"depth24","gloss":"palette"}}
 {"size":"320x240","out":"OUT/after.png"}
 )");
     EXPECT_EQ(image("before.png").pixels, image("after.png").pixels);
@@ -72,7 +72,7 @@ TEST_F(DeferredFrame, hasNothingInfiniteInAnyAttachmentOfAnyLayout) {
     add("position", "");
     add("position", R"("normals":"oct16")");
     add("lit",
-        R"("ssao":"blur","ssao_resolution":"half","environment_diffuse":"sh9","environment_specular":"prefiltered","texture_filter":"anisotropic","albedo":"srgb","shadow_bias":"texel")");
+        R"("ssao_blur":"separable","ssao_resolution":"half","environment_diffuse":"sh9","environment_specular":"prefiltered","texture_filter":"anisotropic","albedo":"srgb","shadow_bias":"texel")");
     render(batch);
     for (long i = 0; i < std::count(batch.begin(), batch.end(), '\n'); ++i) {
         const Image target = image(std::to_string(i) + ".exr");
@@ -108,10 +108,10 @@ TEST_F(DeferredFrame, isTheSumOfItsLights) {
 }
 
 TEST_F(DeferredFrame, looksNearlyTheSameFromEveryLayout) {
-    render(R"({"size":"160x120","out":"OUT/seed.png","set":{"filmstrip":false,"ssao":"blur"}}
-{"size":"160x120","out":"OUT/octahedral.png","set":{"filmstrip":false,"ssao":"blur","normals":"oct16"}}
-{"size":"160x120","out":"OUT/depth.png","set":{"filmstrip":false,"ssao":"blur","positions":"depth24"}}
-{"size":"160x120","out":"OUT/compact.png","set":{"filmstrip":false,"ssao":"blur","normals":"oct16","positions":"depth24","gloss":"palette"}}
+    render(R"({"size":"160x120","out":"OUT/seed.png","set":{"filmstrip":false,"ssao_blur":"separable","ssao_noise":"interleaved"}}
+{"size":"160x120","out":"OUT/octahedral.png","set":{"filmstrip":false,"ssao_blur":"separable","ssao_noise":"interleaved","normals":"oct16"}}
+{"size":"160x120","out":"OUT/depth.png","set":{"filmstrip":false,"ssao_blur":"separable","ssao_noise":"interleaved","positions":"depth24"}}
+{"size":"160x120","out":"OUT/compact.png","set":{"filmstrip":false,"ssao_blur":"separable","ssao_noise":"interleaved","normals":"oct16","positions":"depth24","gloss":"palette"}}
 )");
     const auto bytes = [&](const std::string& name) {
         return std::get<std::vector<std::uint8_t>>(image(name + ".png").pixels);

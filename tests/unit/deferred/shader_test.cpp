@@ -1,6 +1,7 @@
 // The shaders' formulas, each drawn by itself and read back.
 #include "06_gbuffer/gbuffer.hpp"
 #include "07_shadow_map/shadow_map.hpp"
+#include "08_ssao/ssao.hpp"
 #include "gl_test.hpp"
 
 #include <algorithm>
@@ -21,7 +22,13 @@ Defines layout() {
     return gbuffer::GBufferOptions(settings).defines();
 }
 const Defines original_layout = layout();
-const Defines ssao_kinds = {{"SSAO_OFF", "0"}, {"SSAO_SEED", "1"}, {"SSAO_BLUR", "2"}, {"SSAO_GTAO", "3"}};
+// Of the noise for occlusion, so chosen.
+Defines noiseDefines(const std::string& noise) {
+    Settings settings;
+    const ssao::SsaoOptions options(settings);
+    settings.set("ssao_noise", noise);
+    return options.noise.defines();
+}
 
 std::vector<float> valuesOf(const Texture& texture) {
     return std::get<std::vector<float>>(readTexture(texture).pixels);
@@ -75,14 +82,14 @@ std::uint32_t hashed(std::uint32_t value) {
 }
 
 constexpr const char* turn_probe = R"(
-#include "10_deferred/noise.glsl"
+#include "08_ssao/noise.glsl"
 out float turn;
-void main() { turn = turnOf(ivec2(gl_FragCoord.xy)); }
+void main() { turn = noiseOf(ivec2(gl_FragCoord.xy)).x; }
 )";
 
 TEST_F(DeferredShader, noiseIsTheSameAsTheProcessorsOwn) {
     const Framebuffer target({{.name = "turn", .format = Format::r32f}}, {64, 64});
-    draw(target, {.program = program(turn_probe, ssao_kinds + Defines{{"SSAO", "1"}})});
+    draw(target, {.program = program(turn_probe, noiseDefines("hash"))});
     const std::vector<float> turns = valuesOf(target.color()); // top row first
     for (std::uint32_t y = 0; y < 64; ++y)
         for (std::uint32_t x = 0; x < 64; ++x)
@@ -91,7 +98,7 @@ TEST_F(DeferredShader, noiseIsTheSameAsTheProcessorsOwn) {
 
 TEST_F(DeferredShader, noiseForTheBlurHasSixteenTurnsInEachFourByFourBlock) {
     const Framebuffer target({{.name = "turn", .format = Format::r32f}}, {8, 8});
-    draw(target, {.program = program(turn_probe, ssao_kinds + Defines{{"SSAO", "2"}})});
+    draw(target, {.program = program(turn_probe, noiseDefines("interleaved"))});
     const std::vector<float> turns = valuesOf(target.color());
     for (std::size_t block = 0; block < 4; ++block) {
         unsigned seen = 0;
@@ -102,51 +109,19 @@ TEST_F(DeferredShader, noiseForTheBlurHasSixteenTurnsInEachFourByFourBlock) {
     }
 }
 
-TEST_F(DeferredShader, anUnoccludedPlaneIsExactlyOne) {
-    const glm::vec3 camera(1, 2.3F, 4.6F);
-    const glm::mat4 view_from_world = glm::lookAt(camera, {0, 1, 0}, {0, 1, 0});
-    const glm::mat4 clip_from_view = glm::perspective(glm::radians(50.0F), 4.0F / 3, 0.1F, 60.0F);
-    const Framebuffer plane({{.name = "normal", .format = Format::rgba16f, .filter = Filter::nearest},
-                             {.name = "position", .format = Format::rgba16f, .filter = Filter::nearest}},
-                            {160, 120});
-    draw(plane, {.program = program(R"(
-in vec2 uv;
-uniform mat4 world_from_clip;
-uniform vec3 camera;
-layout(location = 0) out vec4 normal;
-layout(location = 1) out vec4 position;
-void main() {
-    vec4 far = world_from_clip * vec4(uv * 2.0 - 1.0, 1.0, 1.0);
-    vec3 ray = far.xyz / far.w - camera;
-    float reach = -camera.y / ray.y;
-    bool hit = ray.y < 0.0 && length(ray * reach) < 8.0; // beyond, pixels are longer than the bias allows for
-    normal = hit ? vec4(0.0, 1.0, 0.0, 24.0) : vec4(0.0);
-    position = hit ? vec4(camera + ray * reach, 1.0) : vec4(0.0);
-}
-)"),
-                 .uniforms = {{"world_from_clip", glm::inverse(clip_from_view * view_from_world)},
-                              {"camera", camera}}});
-    for (const char* kind : {"1", "2", "3"}) {
-        Defines defines = original_layout + ssao_kinds +
-                          Defines{{"SSAO", kind}, {"SSAO_SAMPLES", "16"}, {"WITH_VIEW_Z", "0"}};
-        const Program& ssao = shaders.fullScreen("10_deferred/ssao.frag", defines);
-        const Framebuffer target({{.name = "ssao", .format = Format::r8}}, {160, 120});
-        draw(target, {.program = ssao,
-                      .inputs = {{"normal_map", plane["normal"]}, {"position_map", plane["position"]}},
-                      .part = {.uniforms = {{"view_from_world", view_from_world},
-                                            {"half_uv_from_view",
-                                             0.5F * glm::vec2(clip_from_view[0][0], clip_from_view[1][1])},
-                                            {"pixel_step", 1},
-                                            {"radius", 0.6F},
-                                            {"bias", 0.03F},
-                                            {"strength", 1.7F},
-                                            {"slices", 2},
-                                            {"steps", 4}}}});
-        const Image image = readTexture(target.color());
-        int below = 0;
-        for (const std::uint8_t value : std::get<std::vector<std::uint8_t>>(image.pixels))
-            below += value < 255 ? 1 : 0;
-        EXPECT_EQ(below, 0) << "kind " << kind;
+TEST(HilbertIndex, visitsEveryCellAndStepsOnlyToNeighbours) {
+    constexpr int order = 6;
+    constexpr int side = 1 << order;
+    std::vector<glm::ivec2> cells(side * side, glm::ivec2(-1));
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            const int index = ssao::hilbertIndex(x, y, order);
+            ASSERT_TRUE(index >= 0 && index < side * side);
+            cells[static_cast<std::size_t>(index)] = {x, y};
+        }
+    for (std::size_t i = 1; i < cells.size(); ++i) {
+        const glm::ivec2 step = glm::abs(cells[i] - cells[i - 1]);
+        ASSERT_EQ(step.x + step.y, 1) << i;
     }
 }
 
@@ -195,10 +170,9 @@ TEST_F(DeferredShader, aQuarterOfTheShadowTapsGivesTheSameFilter) {
         {{.name = "shadow", .format = Format::depth24, .wrap = Wrap::border_one, .compare_depth = true}},
         {32, 32});
     draw(shadow, {.program = program(R"(
-#include "10_deferred/noise.glsl"
-void main() { gl_FragDepth = turnOf(ivec2(gl_FragCoord.xy)); }
-)",
-                                     ssao_kinds + Defines{{"SSAO", "1"}}),
+#include "lib/noise.glsl"
+void main() { gl_FragDepth = hashedUnit(ivec2(gl_FragCoord.xy)); }
+)"),
                   .depth_test = DepthTest::less,
                   .clear_depth = 1.0F});
     for (const char* taps : {"1", "3", "5", "7", "9"}) {
