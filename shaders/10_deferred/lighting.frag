@@ -72,8 +72,7 @@ vec3 pointLights(Surface surface, vec3 to_camera) {
 
 #if ENVIRONMENT
 // excerpt: ambient
-// A sky above, ground below; two fifths of it comes from the environment map. The map is also mirrored, more at
-// grazing angles, which the fourth power stands for.
+// A sky above, ground below; two fifths of it comes from the environment map. The map is also mirrored.
 vec3 ambientLight(vec3 world_normal) {
     const vec3 ground_color = vec3(0.08, 0.06, 0.05);
     const vec3 sky_color = vec3(0.22, 0.24, 0.36);
@@ -81,13 +80,15 @@ vec3 ambientLight(vec3 world_normal) {
     return mix(hemisphere, environmentDiffuse(world_normal), 0.4);
 }
 
-vec3 reflectedLight(Surface surface, vec3 to_camera) {
-    float grazing = 1.0 - max(dot(surface.world_normal, to_camera), 0.0);
-    float fresnel = 0.10 + 0.7 * (grazing * grazing) * (grazing * grazing);
-    vec3 mirrored = reflect(-to_camera, surface.world_normal);
+// ambient: as much of it is taken away as is reflected, where environment_energy counts it.
+vec3 reflectedLight(Surface surface, vec3 to_camera, inout vec3 ambient) {
     // the roughness whose highlight is as wide as Blinn's (Walter et al. 2007): alpha^2 = 2 / (shininess + 2)
     float roughness = sqrt(sqrt(2.0 / (surface.shininess + 2.0)));
-    return environmentSpecular(mirrored, roughness) * (surface.specular * fresnel);
+    vec3 left;
+    vec3 reflected = environmentReflected(surface.world_normal, to_camera, ambient,
+                                          reflectanceOfIntensity(surface.specular), roughness, left);
+    ambient *= left;
+    return reflected;
 }
 // end excerpt
 #endif
@@ -102,7 +103,8 @@ vec3 litColor(Surface surface, float visibility) {
 #elif VIEW == VIEW_AMBIENT && ENVIRONMENT
     return ambientLight(surface.world_normal) * visibilityOfColor(visibility, surface.albedo);
 #elif VIEW == VIEW_REFLECTED && ENVIRONMENT
-    return reflectedLight(surface, to_camera) * visibility;
+    vec3 unused = vec3(0.0);
+    return reflectedLight(surface, to_camera, unused) * visibility;
 #elif VIEW == VIEW_SUN || VIEW == VIEW_AMBIENT || VIEW == VIEW_REFLECTED
     return light;
 #endif
@@ -114,8 +116,9 @@ vec3 litColor(Surface surface, float visibility) {
 #endif
     light *= mix(occluded_light, 1.0, visibility);
 #if ENVIRONMENT
-    light += ambientLight(surface.world_normal) * visibilityOfColor(visibility, surface.albedo) +
-             reflectedLight(surface, to_camera) * visibility;
+    vec3 ambient = ambientLight(surface.world_normal);
+    vec3 reflected = reflectedLight(surface, to_camera, ambient);
+    light += ambient * visibilityOfColor(visibility, surface.albedo) + reflected * visibility;
 #endif
     return surface.albedo * light;
 }

@@ -231,6 +231,7 @@ const std::vector<Case> optima = {
     {"05_hdr_bloom", "flip=0.06", {{"levels", "3"}, {"intensity", "0.1"}}, "recommended", "swarm"},
     {"07_shadow_map", "flip=0.02", {{"scene", "plot"}}, "recommended"},
     {"08_ssao", "flip=0.02", {{"scene", "room"}}, "recommended"},
+    {"09_environment_light", "flip=0.02", {}, "recommended"},
 };
 
 // Rungs whose combinations take too long to try: why, and a budget that the search keeps anyhow.

@@ -1,64 +1,70 @@
-// Projecting and filtering an environment.
+// What is made of an environment, for each of the settings.
 #include "environment.hpp"
 
+#include "brdf_table.hpp"
+
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <numbers>
-#include <stdexcept>
+#include <span>
+#include <utility>
 
 namespace gll::environment_light {
 
 // excerpt: settings
 EnvironmentOptions::EnvironmentOptions(Settings& settings)
-    : diffuse(settings.choice("environment_diffuse", "raw", {"raw", "sh9"},
-                              "light on matt surfaces: one fetch along the normal, or nine coefficients")),
-      specular(
-          settings.choice("environment_specular", "raw", {"raw", "prefiltered"},
-                          "reflections: one fetch, or mip levels filtered for the surface's roughness")) {
-    settings.shared("09_environment_light", {"environment_diffuse", "environment_specular"});
+    : diffuse(settings.choice(
+          "environment_diffuse", "raw", {"raw", "mip", "sh9", "sh9_windowed", "sh9_sun"},
+          "light on matt surfaces: one fetch along the normal; one of a coarse mip level; nine "
+          "coefficients; those smoothed until none is negative; those of the sky, and the sun by itself")),
+      specular(settings.choice("environment_specular", "raw", {"raw", "prefiltered"},
+                               "reflections: one fetch, or mip levels filtered for the surface's roughness")),
+      prefilter_samples(settings.integer("prefilter_samples", 64, 16, 1024,
+                                         "directions averaged for each texel of the prefiltered map")),
+      prefilter_filtered(settings.toggle(
+          "prefilter_filtered", true,
+          "each of those reads the mip level that is as coarse as they lie apart; off: the finest")),
+      sun(settings.toggle(
+          "environment_sun", false,
+          "the brightest small light is taken out of the prefiltered map, and lit by as a light")),
+      layout(settings.choice("environment_layout", "equirectangular", {"equirectangular", "octahedral"},
+                             "how the prefiltered map is stored: by latitude and longitude, or as an "
+                             "octahedron, unfolded")),
+      brdf(settings.choice("environment_brdf", "original", {"original", "table", "karis", "lazarov"},
+                           "how much is reflected: a tenth, more at grazing angles; GGX from a table; "
+                           "fits to such tables")),
+      brdf_table_size(settings.choice("brdf_table_size", "32", {"16", "32", "64"},
+                                      "side of the table, texels; for environment_brdf=table")),
+      energy(settings.choice("environment_energy", "none", {"none", "fdez_aguera", "turquin"},
+                             "light reflected more than once within the surface: lost; or given back, "
+                             "from all round or with the rest; not for environment_brdf=original")) {
+    settings.shared("09_environment_light",
+                    {"environment_diffuse", "environment_specular", "prefilter_samples", "prefilter_filtered",
+                     "environment_sun", "environment_layout", "environment_brdf", "brdf_table_size",
+                     "environment_energy"});
 }
 // end excerpt
 
+Defines EnvironmentOptions::defines() const {
+    return diffuse.defines() + specular.defines() + layout.defines() + brdf.defines() + energy.defines() +
+           Defines{{"ENVIRONMENT_SUN", sun ? "1" : "0"}};
+}
+
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr float largest_half_float = 65504;
-
-const std::vector<float>& floatsOf(const Image& image) { return std::get<std::vector<float>>(image.pixels); }
-
-// RGB floats whatever the file has, and nothing that would turn a target infinite.
-Image usable(Image image, const std::filesystem::path& path) {
-    if (!std::holds_alternative<std::vector<float>>(image.pixels))
-        throw std::runtime_error(path.string() + ": an environment must be .hdr or .exr, in linear light");
-    if (image.cube_map)
-        throw std::runtime_error(path.string() + ": is a cube map (envmap=cube), convert it to latitude and "
-                                                 "longitude, one picture twice as wide as high");
-    const auto& from = floatsOf(image);
-    const auto channels = static_cast<std::size_t>(image.channels);
-    std::vector<float> to;
-    to.reserve(from.size() / channels * 3);
-    for (std::size_t i = 0; i < from.size(); i += channels)
-        for (std::size_t c = 0; c < 3; ++c) {
-            const float value = from[i + (channels < 3 ? 0 : c)];
-            if (std::isnan(value))
-                throw std::runtime_error(path.string() + ": holds a value that is not a number");
-            to.push_back(std::clamp(value, 0.0F, largest_half_float));
-        }
-    image.channels = 3;
-    image.pixels = std::move(to);
-    return image;
+// Level i of the prefiltered map is for this roughness, so that a shader finds level r (1.7 - 0.7 r) times
+// the last at r: levels lie closer where lobes are narrow, as texels double from one to the next.
+constexpr int last_level = 5;
+double roughnessOf(int level) {
+    return (1.7 - std::sqrt(1.7 * 1.7 - 4 * 0.7 * level / last_level)) / (2 * 0.7);
 }
 
-glm::dvec3 directionOf(double u, double v) {
-    const double around = (u - 0.5) * 2 * pi;
-    const double down = v * pi;
-    return {std::sin(down) * std::cos(around), std::cos(down), std::sin(down) * std::sin(around)};
+std::span<const float> floats(const std::vector<glm::vec3>& pixels) {
+    return {&pixels[0].x, pixels.size() * 3};
 }
 
-TextureDescription described(const Image& image, int levels) {
-    return {.size = {image.width, image.height},
+TextureDescription described(glm::ivec2 size, int levels) {
+    return {.size = size,
             .format = Format::rgb16f,
             .filter = levels > 1 ? Filter::trilinear : Filter::linear,
             .wrap_x = Wrap::repeat,
@@ -66,185 +72,152 @@ TextureDescription described(const Image& image, int levels) {
             .levels = levels};
 }
 
-// The image at half of its width and height, each pixel weighing as much as its solid angle.
-Image halved(const Image& image) {
-    Image half;
-    half.width = std::max(image.width / 2, 1);
-    half.height = std::max(image.height / 2, 1);
-    half.channels = 3;
-    std::vector<float> pixels(static_cast<std::size_t>(half.width) * static_cast<std::size_t>(half.height) *
-                              3);
-    const auto& from = floatsOf(image);
-    for (int y = 0; y < half.height; ++y)
-        for (int x = 0; x < half.width; ++x) {
-            glm::dvec3 sum(0);
-            double weights = 0;
-            for (int row = y * image.height / half.height; row < (y + 1) * image.height / half.height; ++row)
-                for (int column = x * image.width / half.width; column < (x + 1) * image.width / half.width;
-                     ++column) {
-                    const double weight = std::sin((row + 0.5) / image.height * pi);
-                    const std::size_t at = static_cast<std::size_t>(row * image.width + column) * 3;
-                    sum += weight * glm::dvec3(from[at], from[at + 1], from[at + 2]);
-                    weights += weight;
-                }
-            for (int c = 0; c < 3; ++c)
-                pixels[static_cast<std::size_t>(y * half.width + x) * 3 + static_cast<std::size_t>(c)] =
-                    static_cast<float>(sum[c] / weights);
-        }
-    half.pixels = std::move(pixels);
-    return half;
+double bytesOf(const TextureDescription& texture) {
+    double texels = 0;
+    for (int level = 0; level < texture.levels; ++level)
+        texels += double(std::max(texture.size.x >> level, 1)) * std::max(texture.size.y >> level, 1);
+    return texels * formatInfo(texture.format).bytes;
 }
 
-// Bilinear, going round in u and stopping at the poles in v.
-glm::vec3 lookUp(const Image& image, glm::vec3 direction) {
-    constexpr float pi_f = std::numbers::pi_v<float>;
-    const float u = std::atan2(direction.z, direction.x) / (2 * pi_f) + 0.5F;
-    const float v = std::acos(std::clamp(direction.y, -1.0F, 1.0F)) / pi_f;
-    const float x = u * static_cast<float>(image.width) - 0.5F;
-    const float y = v * static_cast<float>(image.height) - 0.5F;
-    const int x0 = static_cast<int>(std::floor(x));
-    const int y0 = static_cast<int>(std::floor(y));
-    const auto& pixels = floatsOf(image);
-    const auto texel = [&](int column, int row) {
-        column = (column + image.width) % image.width;
-        row = std::clamp(row, 0, image.height - 1);
-        const std::size_t at = static_cast<std::size_t>(row * image.width + column) * 3;
-        return glm::vec3(pixels[at], pixels[at + 1], pixels[at + 2]);
-    };
-    const float fx = x - static_cast<float>(x0);
-    const float fy = y - static_cast<float>(y0);
-    return glm::mix(glm::mix(texel(x0, y0), texel(x0 + 1, y0), fx),
-                    glm::mix(texel(x0, y0 + 1), texel(x0 + 1, y0 + 1), fx), fy);
+// The level of the chain that is as fine as a map of this width, or the finest.
+const RadianceMap& levelFor(const std::vector<RadianceMap>& chain, int width) {
+    std::size_t level = 0;
+    while (level + 1 < chain.size() && chain[level + 1].width >= width)
+        ++level;
+    return chain[level];
 }
 
-// A direction of the half-vector's distribution in its own frame, how much it counts, and how wide it is.
-struct Sample {
-    glm::vec3 light; // about z
-    float weight;    // cosine at the surface
-    std::size_t level;
-};
-
-// i-th of count points in the unit square: Hammersley's, evenly spread.
-glm::vec2 hammersley(unsigned i, unsigned count) {
-    unsigned bits = i;
-    bits = (bits << 16U) | (bits >> 16U);
-    bits = ((bits & 0x55555555U) << 1U) | ((bits & 0xAAAAAAAAU) >> 1U);
-    bits = ((bits & 0x33333333U) << 2U) | ((bits & 0xCCCCCCCCU) >> 2U);
-    bits = ((bits & 0x0F0F0F0FU) << 4U) | ((bits & 0xF0F0F0F0U) >> 4U);
-    bits = ((bits & 0x00FF00FFU) << 8U) | ((bits & 0xFF00FF00U) >> 8U);
-    return {(static_cast<float>(i) + 0.5F) / static_cast<float>(count), static_cast<float>(bits) * 0x1p-32F};
+std::vector<glm::vec3> resampled(const RadianceMap& map, glm::ivec2 size) {
+    std::vector<glm::vec3> pixels;
+    pixels.reserve(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
+    for (int row = 0; row < size.y; ++row)
+        for (int column = 0; column < size.x; ++column)
+            pixels.push_back(lookUp(map, (glm::vec2(column, row) + 0.5F) / glm::vec2(size)));
+    return pixels;
 }
 
 } // namespace
 
-std::array<glm::dvec3, 9> irradianceCoefficients(const Image& radiance) {
-    const auto& pixels = floatsOf(radiance);
-    std::array<glm::dvec3, 9> sums{};
-    // Constants of the basis, squared (once to project, once to evaluate), times what the cosine lobe leaves
-    // of each band, over pi: 1, 2/3, 1/4.
-    constexpr double band0 = 1 / (4 * pi);
-    constexpr double band1 = 3 / (4 * pi) * 2 / 3;
-    constexpr double band2 = 15 / (4 * pi) / 4;
-    constexpr std::array<double, 9> factors = {band0, band1,      band1, band1,    band2,
-                                               band2, band2 / 12, band2, band2 / 4};
-    for (int row = 0; row < radiance.height; ++row) {
-        const double solid_angle =
-            (std::cos(row * pi / radiance.height) - std::cos((row + 1) * pi / radiance.height)) * 2 * pi /
-            radiance.width;
-        for (int column = 0; column < radiance.width; ++column) {
-            const glm::dvec3 n = directionOf((column + 0.5) / radiance.width, (row + 0.5) / radiance.height);
-            const std::size_t at = static_cast<std::size_t>(row * radiance.width + column) * 3;
-            const glm::dvec3 light = solid_angle * glm::dvec3(pixels[at], pixels[at + 1], pixels[at + 2]);
-            const std::array<double, 9> basis = {
-                1, n.y, n.z, n.x, n.x * n.y, n.y * n.z, 3 * n.z * n.z - 1, n.x * n.z, n.x * n.x - n.y * n.y};
-            for (std::size_t i = 0; i < basis.size(); ++i)
-                sums[i] += light * basis[i];
-        }
-    }
-    for (std::size_t i = 0; i < sums.size(); ++i)
-        sums[i] *= factors[i];
-    return sums;
-}
-
-std::vector<float> prefilteredLevel(const Image& radiance, int width, int height, float roughness) {
-    constexpr unsigned count = 64;
-    const float alpha = roughness * roughness;
-    // Each sample reads a level whose pixels are as wide as the sample's share of the sphere, so that few
-    // suffice (Krivanek and Colbert 2008, "Real-Time Shading with Filtered Importance Sampling").
-    std::vector<Image> levels = {radiance};
-    while (levels.back().width > 4 && levels.back().height > 2)
-        levels.push_back(halved(levels.back()));
-    std::vector<Sample> samples;
-    const double pixel_solid_angle = 4 * pi / (double(radiance.width) * radiance.height);
-    for (unsigned i = 0; i < count; ++i) {
-        const glm::vec2 point = hammersley(i, count);
-        const float cosine = std::sqrt((1 - point.x) / (1 + (alpha * alpha - 1) * point.x));
-        const float sine = std::sqrt(std::max(1 - cosine * cosine, 0.0F));
-        const float around = 2 * std::numbers::pi_v<float> * point.y;
-        const glm::vec3 half(sine * std::cos(around), sine * std::sin(around), cosine);
-        const glm::vec3 light = 2 * half.z * half - glm::vec3(0, 0, 1);
-        if (light.z <= 0) continue;
-        const double spread = double(cosine) * cosine * (double(alpha) * alpha - 1) + 1;
-        const double density = double(alpha) * alpha / (pi * spread * spread) / 4; // of light, view = normal
-        const double level = 0.5 * std::log2(1 / (count * density * pixel_solid_angle)) + 1;
-        samples.push_back(
-            {light, light.z,
-             static_cast<std::size_t>(std::clamp(std::round(level), 0.0, double(levels.size() - 1)))});
-    }
-    std::vector<float> pixels;
-    pixels.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
-    for (int row = 0; row < height; ++row)
-        for (int column = 0; column < width; ++column) {
-            const glm::vec3 normal(directionOf((column + 0.5) / width, (row + 0.5) / height));
-            const glm::vec3 up = std::abs(normal.y) < 0.99F ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
-            const glm::vec3 x_axis = glm::normalize(glm::cross(up, normal));
-            const glm::vec3 y_axis = glm::cross(normal, x_axis);
-            glm::vec3 sum(0);
-            float weights = 0;
-            for (const Sample& sample : samples) {
-                sum += sample.weight *
-                       lookUp(levels[sample.level],
-                              sample.light.x * x_axis + sample.light.y * y_axis + sample.light.z * normal);
-                weights += sample.weight;
-            }
-            for (int c = 0; c < 3; ++c)
-                pixels.push_back(sum[c] / weights);
-        }
-    return pixels;
-}
+Environment::Environment(RadianceMap map)
+    : map_(std::move(map)), picture_(described({map_.width, map_.height}, 1), floats(map_.pixels)) {}
 
 Environment::Environment(const std::filesystem::path& path, Warnings& warnings)
-    : image_(usable(loadImage(path), path)), map_(described(image_, 1), floatsOf(image_)) {
-    warnings.add(image_.warnings);
+    : Environment([&] {
+          const Image image = loadImage(path);
+          warnings.add(image.warnings);
+          return radianceMap(image, path);
+      }()) {}
+
+const std::vector<RadianceMap>& Environment::chain() {
+    if (chain_.empty()) chain_ = mipChain(map_);
+    return chain_;
 }
 
-ShaderPart Environment::part(const EnvironmentOptions& options) {
-    ShaderPart part{.defines = options.defines(), .inputs = {{"environment_map", map_}}};
-    if (options.diffuse == "sh9") part.uniforms.push_back({"irradiance_sh", irradiance()});
+const SunAndSky& Environment::parted() {
+    if (!parted_) parted_ = withoutSun(map_);
+    return *parted_;
+}
+
+const Texture& Environment::coarse() {
+    if (!coarse_) {
+        const RadianceMap& level = levelFor(chain(), 4);
+        coarse_.emplace(described({level.width, level.height}, 1), floats(level.pixels));
+    }
+    return *coarse_;
+}
+
+// excerpt: prefilter
+const Texture& Environment::prefilteredMap(const EnvironmentOptions& options) {
+    const std::string as = options.layout.name() + " " + std::to_string(int(options.prefilter_samples)) +
+                           (options.prefilter_filtered ? " filtered" : "") + (options.sun ? " sun" : "");
+    if (prefiltered_as_ == as) return *prefiltered_;
+    const bool by_itself = options.sun && parted().sun;
+    if (by_itself && sky_chain_.empty()) sky_chain_ = mipChain(parted().sky);
+    const std::vector<RadianceMap>& source = by_itself ? sky_chain_ : chain();
+    const Prefilter prefilter{.samples = options.prefilter_samples,
+                              .filtered = options.prefilter_filtered,
+                              .has_sun = !options.sun};
+    // Level 0 is the map itself, for mirrors. A small one is drawn larger, since texels of the last level
+    // must still be small beside the widest lobe; a large one smaller, since lobes would not show it.
+    const bool octahedral = options.layout == "octahedral";
+    glm::ivec2 size(std::clamp(map_.width, 512, 2048), std::clamp(map_.height, 256, 1024));
+    if (octahedral) size = glm::ivec2(int(std::bit_ceil(unsigned(size.y))));
+    TextureDescription description = described(size, last_level + 1);
+    if (octahedral) description.wrap_x = Wrap::clamp_to_edge;
+    const int needed = octahedral ? 2 * size.x : size.x; // pixels all round
+    const RadianceMap& finest = map_.width < 2 * needed ? map_ : levelFor(chain(), needed);
+    if (octahedral) {
+        std::vector<glm::vec3> pixels;
+        for (const glm::vec3& direction : octahedralDirections(size.x))
+            pixels.push_back(lookUp(finest, uvOf(direction)));
+        prefiltered_.emplace(description, floats(pixels));
+    } else {
+        const bool same = finest.width == size.x && finest.height == size.y;
+        prefiltered_.emplace(description, floats(same ? finest.pixels : resampled(finest, size)));
+    }
+    for (int level = 1; level <= last_level; ++level) {
+        const glm::ivec2 smaller(size.x >> level, size.y >> level);
+        prefiltered_->setLevel(
+            level, floats(octahedral ? prefiltered(source, octahedralDirections(smaller.x),
+                                                   roughnessOf(level), prefilter)
+                                     : prefiltered(source, smaller, roughnessOf(level), prefilter)));
+    }
+    prefiltered_as_ = as;
+    return *prefiltered_;
+}
+// end excerpt
+
+ShaderPart Environment::diffusePart(const EnvironmentOptions& options) {
+    if (options.diffuse == "raw") return {};
+    if (options.diffuse == "mip") {
+        bytes_ += bytesOf(coarse().description());
+        return {.inputs = {{"coarse_map", coarse()}}};
+    }
+    const bool without_sun = options.diffuse == "sh9_sun";
+    std::optional<Irradiance>& irradiance = without_sun ? sky_irradiance_ : irradiance_;
+    if (!irradiance) irradiance = irradianceCoefficients(without_sun ? parted().sky : map_);
+    if (options.diffuse == "sh9_windowed" && !windowed_) windowed_ = windowed(*irradiance);
+    const Irradiance& used = options.diffuse == "sh9_windowed" ? *windowed_ : *irradiance;
+    bytes_ += 9 * sizeof(glm::vec3);
+    return {.uniforms = {{"irradiance_sh", std::vector<glm::vec3>(used.begin(), used.end())}}};
+}
+
+ShaderPart Environment::specularPart(const EnvironmentOptions& options) {
+    ShaderPart part;
     if (options.specular == "prefiltered") {
-        part.inputs.push_back({"prefiltered_map", prefiltered()});
-        part.uniforms.push_back({"prefiltered_levels", float(last_level)});
+        const Texture& map = prefilteredMap(options);
+        bytes_ += bytesOf(map.description());
+        part += {.inputs = {{"prefiltered_map", map}},
+                 .uniforms = {{"prefiltered_levels", float(last_level)},
+                              {"prefiltered_size", float(map.size().x)}}};
+    }
+    if (options.brdf == "table") {
+        const int size = std::stoi(options.brdf_table_size.name());
+        if (!brdf_table_ || brdf_table_->size().x != size)
+            brdf_table_.emplace(TextureDescription{.size = glm::ivec2(size), .format = Format::rg16f},
+                                std::span<const float>(brdfTable(size)));
+        bytes_ += bytesOf(brdf_table_->description());
+        part += {.inputs = {{"brdf_table", *brdf_table_}}, .uniforms = {{"brdf_table_size", float(size)}}};
     }
     return part;
 }
 
-const std::vector<glm::vec3>& Environment::irradiance() {
-    if (irradiance_.empty())
-        for (const glm::dvec3& coefficient : irradianceCoefficients(image_))
-            irradiance_.emplace_back(coefficient);
-    return irradiance_;
+ShaderPart Environment::sunPart() {
+    const Sun sun = parted().sun.value_or(Sun());
+    bytes_ += 2 * sizeof(glm::vec3) + sizeof(float);
+    return {.uniforms = {{"to_brightest", glm::vec3(sun.direction)},
+                         {"brightest_irradiance", glm::vec3(sun.irradiance)},
+                         {"brightest_spread", static_cast<float>(0.5 * sun.mean_squared_angle)}}};
 }
 
-const Texture& Environment::prefiltered() {
-    if (!prefiltered_) {
-        const int levels = std::min(last_level + 1, levelCount({image_.width, image_.height}));
-        prefiltered_.emplace(described(image_, levels), floatsOf(image_));
-        for (int level = 1; level < levels; ++level)
-            prefiltered_->setLevel(level, prefilteredLevel(image_, std::max(image_.width >> level, 1),
-                                                           std::max(image_.height >> level, 1),
-                                                           static_cast<float>(level) / last_level));
-    }
-    return *prefiltered_;
+ShaderPart Environment::part(const EnvironmentOptions& options) {
+    const bool reads_picture = options.diffuse == "raw" || options.specular == "raw";
+    bytes_ = reads_picture ? bytesOf(picture_.description()) : 0;
+    ShaderPart part{.defines = options.defines(), .inputs = {{"environment_map", picture_}}};
+    part += diffusePart(options);
+    part += specularPart(options);
+    if (options.diffuse == "sh9_sun" || (options.sun && options.specular == "prefiltered")) part += sunPart();
+    return part;
 }
 
 } // namespace gll::environment_light

@@ -1,16 +1,15 @@
-// Light from an equirectangular picture: as it is, as irradiance in nine coefficients, and prefiltered for
-// glossy reflection. Everything but the picture itself is made when first asked for.
+// Light from all round: for matt surfaces, for glossy ones, and how much of it a surface reflects. Everything
+// but the picture itself is made when first asked for.
 #pragma once
 
 #include "gl/pass.hpp"
-#include "io/image.hpp"
+#include "radiance_map.hpp"
 #include "rung/settings.hpp"
 #include "rung/warnings.hpp"
 
-#include <array>
 #include <filesystem>
-#include <glm/vec3.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace gll::environment_light {
@@ -21,38 +20,49 @@ struct EnvironmentOptions {
 
     Choice diffuse;
     Choice specular;
+    Integer prefilter_samples;
+    Toggle prefilter_filtered;
+    Toggle sun;
+    Choice layout;
+    Choice brdf;
+    Choice brdf_table_size;
+    Choice energy;
 
-    Defines defines() const { return diffuse.defines() + specular.defines(); }
+    Defines defines() const;
 };
-
-// Irradiance over pi, so that a white matt surface shows it as its radiance, as a polynomial of the normal
-// n = (x, y, z), in the order 1, y, z, x, xy, yz, 3z^2 - 1, xz, x^2 - y^2: the spherical harmonics of order 2
-// with their constants multiplied in (Ramamoorthi and Hanrahan 2001, "An Efficient Representation for
-// Irradiance Environment Maps"). radiance: linear, equirectangular, u round the y axis from -x over -z, v
-// from +y down, three floats a pixel. Integrated in double over each pixel's true solid angle.
-std::array<glm::dvec3, 9> irradianceCoefficients(const Image& radiance);
-
-// One level of a map prefiltered for GGX of this roughness (alpha = roughness^2), seen along the normal:
-// Karis 2013, "Real Shading in Unreal Engine 4". Three floats a pixel, row 0 at the top.
-std::vector<float> prefilteredLevel(const Image& radiance, int width, int height, float roughness);
 
 class Environment {
   public:
+    explicit Environment(RadianceMap map);
+    // From an .hdr or .exr; throws as loadImage() and radianceMap().
     Environment(const std::filesystem::path& path, Warnings& warnings);
 
     // For shaders that include 09_environment_light/environment.glsl. Valid until the next call.
     ShaderPart part(const EnvironmentOptions& options);
 
+    // Of everything that the last part() named, and the picture itself only where it is read.
+    double bytes() const { return bytes_; }
+
   private:
-    static constexpr int last_level = 5; // of the prefiltered map: level i holds roughness i / last_level
+    const std::vector<RadianceMap>& chain();
+    const SunAndSky& parted();
+    ShaderPart diffusePart(const EnvironmentOptions& options);
+    ShaderPart specularPart(const EnvironmentOptions& options);
+    ShaderPart sunPart();
+    const Texture& coarse();
+    const Texture& prefilteredMap(const EnvironmentOptions& options);
 
-    const std::vector<glm::vec3>& irradiance();
-    const Texture& prefiltered();
-
-    Image image_; // RGB float, finite
-    Texture map_;
-    std::vector<glm::vec3> irradiance_;
+    RadianceMap map_;
+    Texture picture_;
+    std::vector<RadianceMap> chain_;
+    std::vector<RadianceMap> sky_chain_;
+    std::optional<SunAndSky> parted_;
+    std::optional<Irradiance> irradiance_, sky_irradiance_, windowed_;
+    std::optional<Texture> coarse_;
     std::optional<Texture> prefiltered_;
+    std::string prefiltered_as_; // by which settings
+    std::optional<Texture> brdf_table_;
+    double bytes_ = 0;
 };
 
 } // namespace gll::environment_light

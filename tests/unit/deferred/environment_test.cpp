@@ -1,12 +1,14 @@
 // Environment light against integrals done the slow way.
-#include "09_environment_light/environment.hpp"
+#include "09_environment_light/radiance_map.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <limits>
 #include <numbers>
+#include <stdexcept>
 
 namespace gll::test {
 namespace {
@@ -15,45 +17,24 @@ using namespace gll::environment_light;
 
 constexpr double pi = std::numbers::pi;
 
-glm::dvec3 directionAt(int column, int row, int width, int height) {
-    const double around = ((column + 0.5) / width - 0.5) * 2 * pi;
-    const double down = (row + 0.5) / height * pi;
-    return {std::sin(down) * std::cos(around), std::cos(down), std::sin(down) * std::sin(around)};
-}
-
-Image sky(int width, int height, const std::function<glm::dvec3(glm::dvec3)>& radiance) {
-    Image image;
-    image.width = width;
-    image.height = height;
-    image.channels = 3;
-    std::vector<float> pixels;
+RadianceMap sky(int width, int height, const std::function<glm::dvec3(glm::dvec3)>& radiance) {
+    RadianceMap map{.width = width, .height = height, .pixels = {}};
     for (int row = 0; row < height; ++row)
-        for (int column = 0; column < width; ++column) {
-            const glm::dvec3 light = radiance(directionAt(column, row, width, height));
-            for (int c = 0; c < 3; ++c)
-                pixels.push_back(static_cast<float>(light[c]));
-        }
-    image.pixels = std::move(pixels);
-    return image;
-}
-
-glm::dvec3 evaluate(const std::array<glm::dvec3, 9>& c, glm::dvec3 n) {
-    return c[0] + c[1] * n.y + c[2] * n.z + c[3] * n.x + c[4] * n.x * n.y + c[5] * n.y * n.z +
-           c[6] * (3 * n.z * n.z - 1) + c[7] * n.x * n.z + c[8] * (n.x * n.x - n.y * n.y);
+        for (int column = 0; column < width; ++column)
+            map.pixels.emplace_back(radiance(directionOf((column + 0.5) / width, (row + 0.5) / height)));
+    return map;
 }
 
 // Irradiance over pi by summing every pixel.
-glm::dvec3 summed(const Image& image, glm::dvec3 n) {
-    const auto& pixels = std::get<std::vector<float>>(image.pixels);
+glm::dvec3 summed(const RadianceMap& image, glm::dvec3 n) {
     glm::dvec3 sum(0);
     for (int row = 0; row < image.height; ++row)
         for (int column = 0; column < image.width; ++column) {
-            const double cosine = glm::dot(n, directionAt(column, row, image.width, image.height));
+            const double cosine =
+                glm::dot(n, directionOf((column + 0.5) / image.width, (row + 0.5) / image.height));
             const double solid_angle =
                 std::sin((row + 0.5) / image.height * pi) * pi / image.height * 2 * pi / image.width;
-            const auto at = static_cast<std::size_t>(row * image.width + column) * 3;
-            if (cosine > 0)
-                sum += cosine * solid_angle / pi * glm::dvec3(pixels[at], pixels[at + 1], pixels[at + 2]);
+            if (cosine > 0) sum += cosine * solid_angle / pi * glm::dvec3(image.at(column, row));
         }
     return sum;
 }
@@ -70,7 +51,7 @@ TEST(Environment, ofOneColorLightsEveryNormalWithThatColor) {
         irradianceCoefficients(sky(64, 32, [](glm::dvec3) { return glm::dvec3(1, 2, 0.5); }));
     for (const glm::dvec3 n :
          {glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::normalize(glm::dvec3(1, 2, -3))}) {
-        const glm::dvec3 light = evaluate(coefficients, n);
+        const glm::dvec3 light = irradianceAt(coefficients, n);
         EXPECT_NEAR(light.r, 1, 1e-2);
         EXPECT_NEAR(light.g, 2, 2e-2);
         EXPECT_NEAR(light.b, 0.5, 5e-3);
@@ -78,15 +59,15 @@ TEST(Environment, ofOneColorLightsEveryNormalWithThatColor) {
 }
 
 TEST(Environment, inNineCoefficientsIsWithinAFewPercentOfTheIntegral) {
-    const Image image = sky(128, 64, daylight);
+    const RadianceMap image = sky(128, 64, daylight);
     const auto coefficients = irradianceCoefficients(image);
     double worst = 0;
     double mean = 0;
     int count = 0;
     for (int row = 0; row < 8; ++row)
         for (int column = 0; column < 16; ++column, ++count) {
-            const glm::dvec3 n = directionAt(column, row, 16, 8);
-            const double error = std::abs(evaluate(coefficients, n).g / summed(image, n).g - 1);
+            const glm::dvec3 n = directionOf((column + 0.5) / 16, (row + 0.5) / 8);
+            const double error = std::abs(irradianceAt(coefficients, n).g / summed(image, n).g - 1);
             worst = std::max(worst, error);
             mean += error;
         }
@@ -95,14 +76,15 @@ TEST(Environment, inNineCoefficientsIsWithinAFewPercentOfTheIntegral) {
 }
 
 TEST(Environment, prefilteredKeepsOneColorAndHasNoSeam) {
-    for (const float value :
-         prefilteredLevel(sky(32, 16, [](glm::dvec3) { return glm::dvec3(0.7); }), 8, 4, 0.6F))
-        EXPECT_NEAR(value, 0.7F, 1e-4F);
+    for (const glm::vec3& value :
+         prefiltered(mipChain(sky(32, 16, [](glm::dvec3) { return glm::dvec3(0.7); })), {8, 4}, 0.6, {}))
+        EXPECT_NEAR(value.g, 0.7F, 1e-4F);
     constexpr int width = 64;
     constexpr int height = 32;
-    const std::vector<float> level = prefilteredLevel(sky(256, 128, daylight), width, height, 0.4F);
+    const std::vector<glm::vec3> level =
+        prefiltered(mipChain(sky(256, 128, daylight)), {width, height}, 0.4, {});
     const auto green = [&](int column, int row) {
-        return level[static_cast<std::size_t>(row * width + column) * 3 + 1];
+        return level[static_cast<std::size_t>(row * width + column)].g;
     };
     float largest_step = 0; // between neighbours elsewhere
     float seam_step = 0;
@@ -112,6 +94,93 @@ TEST(Environment, prefilteredKeepsOneColorAndHasNoSeam) {
         seam_step = std::max(seam_step, std::abs(green(width - 1, row) - green(0, row)));
     }
     EXPECT_LE(seam_step, largest_step);
+}
+
+TEST(Environment, takesWhatIsNegativeOrTooBrightAndRefusesWhatIsNoNumber) {
+    Image image{.width = 2, .height = 1, .channels = 3, .pixels = {}};
+    image.pixels = std::vector<float>{-1, 2, std::numeric_limits<float>::infinity(), 1, 1, 1};
+    EXPECT_EQ(radianceMap(image, "sky.exr").at(0, 0), glm::vec3(0, 2, 65504));
+    image.pixels = std::vector<float>{1, std::nanf(""), 1, 1, 1, 1};
+    try {
+        radianceMap(image, "sky.exr");
+        FAIL() << "not refused";
+    } catch (const std::runtime_error& error) {
+        EXPECT_STREQ(error.what(), "sky.exr: holds a value that is not a number");
+    }
+}
+
+TEST(Environment, keepsItsEnergyInEveryHalf) {
+    for (const glm::ivec2 size :
+         {glm::ivec2(64, 32), glm::ivec2(37, 19), glm::ivec2(3, 2), glm::ivec2(1, 1)}) {
+        const RadianceMap map =
+            sky(size.x, size.y, [](glm::dvec3 d) { return daylight(d) + glm::dvec3(d.x > 0.9 ? 50 : 0); });
+        const auto mean = [](const RadianceMap& of) {
+            double sum = 0;
+            for (int row = 0; row < of.height; ++row)
+                for (int column = 0; column < of.width; ++column)
+                    sum += solidAngle(of, row) / (4 * pi) * of.at(column, row).g;
+            return sum;
+        };
+        for (const RadianceMap& half : mipChain(map))
+            EXPECT_NEAR(mean(half) / mean(map), 1, 1e-5) << size.x << " " << half.width;
+    }
+}
+
+TEST(Environment, ofASunIsPartedWithNothingLostAndGivenBackAsALight) {
+    const glm::dvec3 to_sun = glm::normalize(glm::dvec3(1, 2, -1));
+    const RadianceMap map = sky(512, 256, [&](glm::dvec3 d) {
+        return glm::dvec3(0.3, 0.4, 0.5) + (glm::dot(d, to_sun) > std::cos(0.02) ? 3000.0 : 0.0);
+    });
+    const SunAndSky parted = withoutSun(map);
+    ASSERT_TRUE(parted.sun);
+    EXPECT_GT(glm::dot(parted.sun->direction, to_sun), std::cos(0.004)) << "a third of a pixel";
+    for (const glm::vec3& pixel : parted.sky.pixels)
+        ASSERT_NEAR(pixel.g, 0.4F, 1e-3F);
+    for (const glm::dvec3 n : {to_sun, glm::dvec3(0, 1, 0), glm::normalize(glm::dvec3(1, 0.1, 1))})
+        EXPECT_NEAR((summed(parted.sky, n) + parted.sun->irradiance * std::max(glm::dot(n, to_sun), 0.0)).g /
+                        summed(map, n).g,
+                    1, 2e-3);
+    EXPECT_FALSE(withoutSun(sky(512, 256, daylight)).sun) << "a glow is no sun";
+    EXPECT_FALSE(withoutSun(sky(3, 2, [](glm::dvec3 d) { return glm::dvec3(d.x > 0.9 ? 100 : 0); })).sun);
+}
+
+TEST(Environment, windowedSeesNoNegativeLightAndIsLeftAloneWhereThereIsNone) {
+    const Irradiance point =
+        irradianceCoefficients(sky(256, 128, [](glm::dvec3 d) { return glm::dvec3(d.y > 0.999 ? 100 : 0); }));
+    double least = 0;
+    double least_windowed = 0;
+    for (int i = 0; i <= 180; ++i) {
+        const glm::dvec3 n(std::sin(i * pi / 180), std::cos(i * pi / 180), 0);
+        least = std::min(least, irradianceAt(point, n).g);
+        least_windowed = std::min(least_windowed, irradianceAt(windowed(point), n).g);
+    }
+    const double peak = irradianceAt(point, {0, 1, 0}).g;
+    EXPECT_NEAR(least / peak, -0.0396 / 1.0625, 2e-4); // f(c) = 0.09375 + 0.5 c + 0.46875 c^2
+    EXPECT_GT(least_windowed / peak, -1e-3);
+    const Irradiance day = irradianceCoefficients(sky(256, 128, daylight));
+    EXPECT_EQ(day, windowed(day));
+}
+
+TEST(Environment, hasALobeWithAnIntegral) {
+    for (const double roughness : {0.1, 0.3, 0.6, 0.9, 1.0})
+        for (const double least : {0.0, 0.5, 0.9}) {
+            double sum = 0;
+            constexpr int steps = 200000;
+            for (int i = 0; i < steps; ++i)
+                sum +=
+                    lobe(least + (1 - least) * (i + 0.5) / steps, roughness) * 2 * pi * (1 - least) / steps;
+            EXPECT_NEAR(lobeIntegral(roughness, least) / sum, 1, 1e-4) << roughness << " " << least;
+        }
+}
+
+TEST(Environment, asAnOctahedronFoldsItsRimOntoItself) {
+    constexpr int size = 16;
+    const std::vector<glm::vec3> directions = octahedralDirections(size);
+    for (int i = 0; i < size; ++i) {
+        const glm::vec3 apart = directions[static_cast<std::size_t>(i)] -
+                                directions[static_cast<std::size_t>(size - 1 - i)]; // mirrored along the rim
+        EXPECT_LT(glm::length(apart), 1e-6F) << i;
+    }
 }
 
 } // namespace

@@ -277,11 +277,14 @@ void main() {
 }
 )",
                                      {{"ENVIRONMENT_DIFFUSE_RAW", "0"},
-                                      {"ENVIRONMENT_DIFFUSE_SH9", "1"},
+                                      {"ENVIRONMENT_DIFFUSE_MIP", "1"},
                                       {"ENVIRONMENT_DIFFUSE", "0"},
                                       {"ENVIRONMENT_SPECULAR_RAW", "0"},
                                       {"ENVIRONMENT_SPECULAR_PREFILTERED", "1"},
-                                      {"ENVIRONMENT_SPECULAR", "0"}}),
+                                      {"ENVIRONMENT_SPECULAR", "0"},
+                                      {"ENVIRONMENT_BRDF_ORIGINAL", "0"},
+                                      {"ENVIRONMENT_BRDF_TABLE", "1"},
+                                      {"ENVIRONMENT_BRDF", "0"}}),
                   .inputs = {{"environment_map", map}}});
     for (const float light : valuesOf(target.color()))
         ASSERT_EQ(light, 0);
