@@ -249,7 +249,7 @@ class Search {
         progress_("costs of " + std::to_string(changes.size()) + " settings");
         std::string lines;
         for (const Sets& change : changes) {
-            nlohmann::json line{{"cost", true}};
+            nlohmann::json line{{"cost", "passes"}};
             const auto add = [&](const std::string& name, const std::string& value) {
                 line["set"].push_back(name + "=" + value);
             };

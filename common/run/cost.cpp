@@ -293,8 +293,8 @@ void prepareCost(CounterKind counter, char** argv) {
     std::exit(WIFEXITED(status) ? WEXITSTATUS(status) : 130);
 }
 
-CostReport measureCost(Renderer& renderer, const RungInfo& info, int frame, glm::ivec2 size,
-                       CounterKind kind) {
+CostReport measureCost(Renderer& renderer, const RungInfo& info, int frame, glm::ivec2 size, CounterKind kind,
+                       bool passes_only) {
     const GlInfo& gl = renderer.context().info();
     CostReport report;
     report.rung = info.name;
@@ -320,7 +320,7 @@ CostReport measureCost(Renderer& renderer, const RungInfo& info, int frame, glm:
     PassMeter meter(*counter);
     const double huge = std::numeric_limits<double>::max();
     double copy_amount = huge;
-    report.frame_amount = report.frame_time_ms = huge;
+    if (!passes_only) report.frame_amount = report.frame_time_ms = huge;
     for (int i = 0; i < counter->repetitions(); ++i) {
         for (int copy_again = 0; copy_again < 3; ++copy_again) { // every figure is divided by this one
             counter->start();
@@ -331,10 +331,11 @@ CostReport measureCost(Renderer& renderer, const RungInfo& info, int frame, glm:
         meter.begin();
         renderer.render(frame, size, &meter);
 
+        if (passes_only) continue;
         const double start_ms = clockMs(CLOCK_MONOTONIC);
         counter->start();
         renderer.render(frame, size);
-        report.frame_amount = std::min(report.frame_amount, counter->stop());
+        report.frame_amount = std::min(*report.frame_amount, counter->stop());
         report.frame_time_ms = std::min(report.frame_time_ms, clockMs(CLOCK_MONOTONIC) - start_ms);
     }
     report.copy_per_pixel = copy_amount / area(size);
@@ -342,7 +343,7 @@ CostReport measureCost(Renderer& renderer, const RungInfo& info, int frame, glm:
     if (report.counter == "gpu") { // its own clock beats the wall's
         for (PassCost& pass : report.passes)
             pass.time_ms = pass.amount * 1e-6;
-        report.frame_time_ms = report.frame_amount * 1e-6;
+        if (report.frame_amount) report.frame_time_ms = *report.frame_amount * 1e-6;
     }
     return report;
 }
@@ -375,12 +376,15 @@ std::string costTable(const CostReport& report) {
         time_ms += pass.time_ms;
     }
     row("sum", report.size, sum, fixed(bytes, 1), time_ms);
-    row("whole frame", report.size, report.frame_amount, "", report.frame_time_ms);
-    text += "\ncu: of the frame's pixels, so that the column adds up. Whole frame: " +
-            (instructions ? fixed(report.frame_amount * 1e-6, 1) + " million instructions"
-                          : fixed(report.frame_amount * 1e-6, 3) + " ms of " + report.counter + " time") +
-            ".\n";
-    return text;
+    if (report.frame_amount) row("whole frame", report.size, *report.frame_amount, "", report.frame_time_ms);
+    text += "\ncu: of the frame's pixels, so that the column adds up.";
+    if (report.frame_amount)
+        text +=
+            " Whole frame: " +
+            (instructions ? fixed(*report.frame_amount * 1e-6, 1) + " million instructions"
+                          : fixed(*report.frame_amount * 1e-6, 3) + " ms of " + report.counter + " time") +
+            ".";
+    return text + "\n";
 }
 
 std::string costJson(const CostReport& report) {
@@ -406,9 +410,11 @@ std::string costJson(const CostReport& report) {
     for (const PassCost& pass : report.passes)
         sum += copies(report, pass.amount);
     json["sum_cu"] = sum;
-    json["frame_amount"] = report.frame_amount;
-    json["frame_cu"] = copies(report, report.frame_amount);
-    if (timed) json["frame_ms"] = report.frame_time_ms;
+    if (report.frame_amount) {
+        json["frame_amount"] = *report.frame_amount;
+        json["frame_cu"] = copies(report, *report.frame_amount);
+        if (timed) json["frame_ms"] = report.frame_time_ms;
+    }
     return json.dump() + "\n";
 }
 

@@ -3,6 +3,7 @@
 
 #include "rung/rung.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,8 @@ struct CostReport {
     glm::ivec2 size{1, 1};
     double copy_per_pixel = 0; // one copy (cu): a one-tap RGBA16F full-screen copy, per pixel
     std::vector<PassCost> passes;
-    double frame_amount = 0; // the frame rendered whole, without a wait between passes
+    // The frame rendered whole, without a wait between passes; nothing where only passes were counted.
+    std::optional<double> frame_amount = {};
     double frame_time_ms = 0;
 };
 
@@ -41,10 +43,10 @@ struct CostReport {
 // as that did; throws std::runtime_error where valgrind is not there.
 void prepareCost(CounterKind counter, char** argv);
 
-// Renders the frame several times and measures it. Throws std::runtime_error where the counter asked for is
-// not to be had here.
+// Renders the frame several times and measures it, pass by pass and, unless passes_only, whole. Throws
+// std::runtime_error where the counter asked for is not to be had here.
 CostReport measureCost(Renderer& renderer, const RungInfo& info, int frame, glm::ivec2 size,
-                       CounterKind counter);
+                       CounterKind counter, bool passes_only = false);
 
 std::string costTable(const CostReport& report); // for people, ends in a newline
 std::string costJson(const CostReport& report);  // one line, ends in a newline

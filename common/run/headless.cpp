@@ -194,7 +194,8 @@ void renderRequest(Renderer& renderer, const FrameRequest& request, const Option
             printReadings(readings, request, frame, options.json);
         }
         if (request.cost) {
-            const CostReport report = measureCost(renderer, info, frame, request.size, options.counter);
+            const CostReport report =
+                measureCost(renderer, info, frame, request.size, options.counter, request.passes_only);
             std::fputs((options.json ? costJson(report) : costTable(report)).c_str(), stdout);
         }
         rendered();

@@ -163,6 +163,9 @@ FrameRequest parseBatchLine(const std::string& line, FrameRequest request, const
             request.readings = value.get<bool>();
         } else if (key == "cost" && value.is_boolean()) {
             request.cost = value.get<bool>();
+            request.passes_only = false;
+        } else if (key == "cost" && value == "passes") {
+            request.cost = request.passes_only = true;
         } else if (key == "set" && value.is_object()) {
             for (const auto& [name, setting] : value.items())
                 request.sets.push_back(name + "=" + scalarText(name, setting));

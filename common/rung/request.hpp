@@ -32,6 +32,7 @@ struct FrameRequest {
     std::vector<Injection> injections;
     bool readings = false;
     bool cost = false;
+    bool passes_only = false; // of the cost: the whole frame, which takes as long, is not counted by itself
     RungFiles files;
     std::string batch_line; // "FILE:line" of it
 

@@ -42,7 +42,7 @@ std::vector<nlohmann::json> costs(const std::filesystem::path& rung, const std::
                                   glm::ivec2 size, const std::vector<std::string>& more_arguments) {
     std::string lines;
     for (const Set& set : sets)
-        lines += nlohmann::json{{"cost", true},
+        lines += nlohmann::json{{"cost", "passes"},
                                 {"set", set},
                                 {"size", std::to_string(size.x) + "x" + std::to_string(size.y)}}
                      .dump() +

@@ -35,9 +35,9 @@ class Copies final : public Rung {
 
 class CostTest : public testing::Test {
   protected:
-    CostReport measured(CounterKind counter) {
+    CostReport measured(CounterKind counter, bool passes_only = false) {
         Renderer renderer(*context, info, {});
-        return measureCost(renderer, info, 60, {512, 384}, counter);
+        return measureCost(renderer, info, 60, {512, 384}, counter, passes_only);
     }
 
     RungInfo info{.name = "99_copies", .summary = "Copies.", .make = [](RungResources resources) {
@@ -62,8 +62,21 @@ TEST_F(CostTest, theCpuCounterReportsEveryPassInOrder) {
         EXPECT_GT(pass.amount, 0) << pass.name;
         EXPECT_GT(pass.time_ms, 0) << pass.name;
     }
-    EXPECT_GT(report.frame_amount, 0);
+    EXPECT_GT(report.frame_amount.value(), 0);
     EXPECT_GT(report.copy_per_pixel, 0);
+}
+
+TEST_F(CostTest, ofPassesOnlyLeavesOutTheWholeFrame) {
+    const CostReport report = measured(CounterKind::cpu, true);
+    ASSERT_EQ(report.passes.size(), 3U);
+    EXPECT_GT(report.passes[0].amount, 0);
+    EXPECT_FALSE(report.frame_amount);
+    const auto json = nlohmann::json::parse(costJson(report));
+    EXPECT_EQ(json["passes"].size(), 3U);
+    EXPECT_GT(json["sum_cu"], 0);
+    for (const char* key : {"frame_amount", "frame_cu", "frame_ms"})
+        EXPECT_FALSE(json.contains(key)) << key;
+    EXPECT_EQ(costTable(report).find("hole frame"), std::string::npos) << costTable(report);
 }
 
 // CPU time on a busy machine: margins so wide that only a wrong unit, area or counter breaks them.

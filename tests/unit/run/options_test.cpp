@@ -276,6 +276,10 @@ TEST_F(OptionsTest, aBatchLineHasTheKeysOfTheOptions) {
     EXPECT_EQ(second.last_frame, 8);
     EXPECT_EQ(second.step, 3);
     EXPECT_TRUE(second.cost);
+    EXPECT_FALSE(second.passes_only);
+    const Options passes = parse({"--batch", batch(R"({"cost": "passes"})")}).value();
+    EXPECT_TRUE(passes.batch.at(0).cost);
+    EXPECT_TRUE(passes.batch.at(0).passes_only);
     EXPECT_TRUE(second.target.empty()) << "lines do not inherit from each other";
 }
 
