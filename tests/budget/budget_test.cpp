@@ -257,7 +257,7 @@ TEST_P(BudgetFindsWhatTryingEverythingFindsToWithinATenthOfItsCost, in) {
             << "a budget chooses from these: give " << rung << " a case in optima";
         return;
     }
-    const glm::ivec2 size(120, 90);
+    const glm::ivec2 size(80, 60);
     const test::TemporaryFolder folder;
     Case one = *found;
     if (one.image == "swarm") one.image = swarmPicture(folder, size);
