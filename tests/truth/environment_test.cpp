@@ -8,8 +8,10 @@
 
 #include <cstdio>
 #include <ctime>
+#include <functional>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <numbers>
 
 namespace gll::test {
 namespace {
