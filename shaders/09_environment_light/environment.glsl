@@ -146,7 +146,7 @@ vec3 sunReflected(vec3 normal, vec3 to_camera, vec3 reflectance, float roughness
     float lit = max(dot(normal, to_brightest), 0.0);
     float seen = max(dot(normal, to_camera), 1e-3);
     float alpha = roughness * roughness;
-    float alpha_squared = min(alpha * alpha + brightest_spread, 1.0);
+    float alpha_squared = clamp(alpha * alpha + brightest_spread, 1e-6, 1.0);
     float along = dot(normal, halfway);
     float spread = along * along * (alpha_squared - 1.0) + 1.0;
     float masked = lit * sqrt(alpha_squared + seen * seen * (1.0 - alpha_squared)) +

@@ -163,6 +163,8 @@ TEST(EnvironmentLight, isPrefilteredToAPercentWith32Samples) {
         sky.errors({radiance, with(radiance, {{"environment_layout", "octahedral"}})}, sky.gathered());
     for (std::size_t ball = 0; ball < ball_count; ++ball) {
         const float roughness = environment_light::ball_roughnesses[ball];
+        std::printf("roughness %.2f: what is stored is off by %.2f %%, as an octahedron by %.2f %%\n",
+                    double(roughness), errors[0][ball].rmsPercent(), errors[1][ball].rmsPercent());
         EXPECT_LE(errors[0][ball].rmsPercent(), 1) << "equirectangular, " << roughness;
         // its last level has half of the equirectangular one's texels
         EXPECT_LE(errors[1][ball].rmsPercent(), roughness == 1 ? 1.3 : 1) << "octahedral, " << roughness;
