@@ -8,7 +8,7 @@
 namespace gll::test {
 namespace {
 
-const auto listed = nlohmann::json::parse(R"({
+const auto listed_settings = nlohmann::json::parse(R"({
     "rung": "02_test",
     "settings": [
         {"name": "blur", "kind": "choice", "default": "tent", "choices": ["tent", "box", "dual"]},
@@ -29,24 +29,25 @@ const std::vector<GoldenCase> all = {
     caseOf(R"({"set": {"blur": "box", "tone_map": "film", "bloom": false, "exposure_ev": "1"}})")};
 
 TEST(CompleteGoldens, showEveryChoiceAndEveryOtherSettingOnce) {
-    EXPECT_EQ(missingCases(listed, all, {}), std::vector<std::string>{});
+    EXPECT_EQ(missingCases(listed_settings, all, {}), std::vector<std::string>{});
 }
 
 TEST(CompleteGoldens, missWhatNoCaseShows) {
-    EXPECT_EQ(missingCases(listed, {}, {}).size(), 5U) << "two blurs, a tone map, a toggle, a number";
-    EXPECT_EQ(missingCases(listed, {all[1]}, {}).size(), 1U);
-    EXPECT_EQ(missingCases(listed, {all[1]}, {}).at(0).find("blur=dual failed"), 0U);
+    EXPECT_EQ(missingCases(listed_settings, {}, {}).size(), 5U)
+        << "two blurs, a tone map, a toggle, a number";
+    EXPECT_EQ(missingCases(listed_settings, {all[1]}, {}).size(), 1U);
+    EXPECT_EQ(missingCases(listed_settings, {all[1]}, {}).at(0).find("blur=dual failed"), 0U);
 }
 
 TEST(CompleteGoldens, takeASettingAtItsDefaultForNone) {
     const auto at_default = caseOf(R"({"set": {"exposure_ev": "0.0", "bloom": "on", "tone_map": "clamp"}})");
-    EXPECT_EQ(missingCases(listed, {at_default}, {}).size(), 5U);
+    EXPECT_EQ(missingCases(listed_settings, {at_default}, {}).size(), 5U);
 }
 
 TEST(CompleteGoldens, takeAnExcuseAndRefuseOneThatIsNotNeeded) {
-    EXPECT_EQ(missingCases(listed, {all[1]}, {{"blur=dual", "reason"}}), std::vector<std::string>{});
-    EXPECT_EQ(missingCases(listed, all, {{"blur=dual", "reason"}}).size(), 1U);
-    EXPECT_EQ(missingCases(listed, all, {{"blurred", "reason"}}).size(), 1U);
+    EXPECT_EQ(missingCases(listed_settings, {all[1]}, {{"blur=dual", "reason"}}), std::vector<std::string>{});
+    EXPECT_EQ(missingCases(listed_settings, all, {{"blur=dual", "reason"}}).size(), 1U);
+    EXPECT_EQ(missingCases(listed_settings, all, {{"blurred", "reason"}}).size(), 1U);
 }
 
 TEST(GoldenCases, nameTheirFilesFromTheirFolder) {
