@@ -2,6 +2,9 @@
 #pragma once
 
 #include <glad/gl.h>
+#include <stdexcept>
+#include <string>
+#include <string_view>
 
 namespace gll {
 
@@ -80,6 +83,13 @@ constexpr FormatInfo formatInfo(Format format) {
         return {"depth32f", GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 1, 4, false, true};
     }
     return {};
+}
+
+// The format with that FormatInfo::name. Throws std::invalid_argument where there is none.
+inline Format formatNamed(std::string_view name) {
+    for (int i = 0; i <= static_cast<int>(Format::depth32f); ++i)
+        if (const auto format = static_cast<Format>(i); formatInfo(format).name == name) return format;
+    throw std::invalid_argument("there is no format " + std::string(name));
 }
 
 } // namespace gll

@@ -24,12 +24,17 @@ const char* statusName(GLenum status) {
     }
 }
 
+// Colours in their order, then depth.
+void arrange(std::vector<Attachment>& attachments) {
+    std::stable_partition(attachments.begin(), attachments.end(),
+                          [](const Attachment& a) { return !isDepth(a); });
+}
+
 } // namespace
 
 Framebuffer::Framebuffer(std::vector<Attachment> attachments, glm::ivec2 size)
     : attachments_(std::move(attachments)), size_(size) {
-    std::stable_partition(attachments_.begin(), attachments_.end(),
-                          [](const Attachment& a) { return !isDepth(a); });
+    arrange(attachments_);
     color_count_ = static_cast<int>(std::count_if(attachments_.begin(), attachments_.end(),
                                                   [](const Attachment& a) { return !isDepth(a); }));
     GLint most_colors = 0;
@@ -40,9 +45,9 @@ Framebuffer::Framebuffer(std::vector<Attachment> attachments, glm::ivec2 size)
     create();
 }
 
-void Framebuffer::resize(glm::ivec2 size) {
-    if (size == size_) return;
-    *this = Framebuffer(attachments_, size);
+void Framebuffer::remake(std::vector<Attachment> attachments, glm::ivec2 size) {
+    arrange(attachments);
+    if (attachments != attachments_ || size != size_) *this = Framebuffer(std::move(attachments), size);
 }
 
 void Framebuffer::create() {

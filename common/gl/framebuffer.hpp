@@ -20,16 +20,22 @@ struct Attachment {
     bool compare_depth = false;
     bool mipmapped =
         false; // with all levels down to 1x1, which Pass::generate_mipmaps fills; drawn to is level 0
+
+    bool operator==(const Attachment&) const = default;
 };
 
 class Framebuffer {
   public:
+    // Without attachments, nothing can be drawn to it until remake() gives it some.
+    Framebuffer() = default;
     // Throws std::runtime_error naming the attachments where the framebuffer is not complete.
     Framebuffer(std::vector<Attachment> attachments, glm::ivec2 size);
 
-    // Makes the attachments anew where the size differs; their contents are then undefined. Where that throws
-    // (see the constructor, and Texture's for sizes), the framebuffer is as it was.
-    void resize(glm::ivec2 size);
+    // Where the attachments or the size differ from what it has, it is made anew and its contents are
+    // undefined; else nothing happens. Where that throws (see the constructor, and Texture's for sizes), the
+    // framebuffer is as it was.
+    void remake(std::vector<Attachment> attachments, glm::ivec2 size);
+    void resize(glm::ivec2 size) { remake(attachments_, size); }
 
     glm::ivec2 size() const { return size_; }
     GLuint id() const { return handle_.id(); }
@@ -52,7 +58,7 @@ class Framebuffer {
 
     std::vector<Attachment> attachments_;
     std::vector<Texture> textures_; // one for each attachment, in the same order
-    glm::ivec2 size_;
+    glm::ivec2 size_{0};
     int color_count_ = 0;
     Handle<destroy> handle_;
 };

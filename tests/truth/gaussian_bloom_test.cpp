@@ -184,7 +184,7 @@ class BlurPasses : public testing::Test {
     std::unique_ptr<Context> context = makeOsmesaContext();
     ShaderLibrary shaders{Resources().shaderRoots()};
     Mesh triangle = Mesh::fullScreenTriangle();
-    GaussianBlur blur{Format::rgba32f};
+    GaussianBlur blur;
 };
 
 TEST_F(BlurPasses, spreadAPixelByTheSigmaAskedForInBothDirectionsAndKeepItsLight) {

@@ -12,7 +12,6 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <glm/vec4.hpp>
-#include <map>
 
 namespace {
 using namespace gll;
@@ -91,31 +90,22 @@ class Hdr final : public Rung {
         : shaders_(resources.shaders), options_(options), image_(resources) {}
 
     void render(Frame& frame) override {
-        drawScene(frame, "scene", target("hdr", options_.format.name(), frame.size()));
+        remake(hdr_, "hdr", options_.format, frame.size());
+        drawScene(frame, "scene", hdr_);
         display(frame);
         if (!options_.compare) return;
-        drawScene(frame, "right_scene", target("right_hdr", options_.right_format.name(), frame.size()));
+        remake(right_hdr_, "right_hdr", options_.right_format, frame.size());
+        drawScene(frame, "right_scene", right_hdr_);
         displayRight(frame);
     }
 
   private:
     // excerpt: target
-    // The scene's target of that format: made when first asked for, kept.
-    const Framebuffer& target(const std::string& name, const std::string& format_name, glm::ivec2 size) {
-        static const std::map<std::string, Format> format = {{"rgba8", Format::rgba8},
-                                                             {"rgb10_a2", Format::rgb10_a2},
-                                                             {"r11f_g11f_b10f", Format::r11f_g11f_b10f},
-                                                             {"rgba16f", Format::rgba16f},
-                                                             {"rgba32f", Format::rgba32f}};
-        auto [place, is_new] = targets_.try_emplace(name + format_name, nullptr);
-        if (is_new)
-            place->second = std::make_unique<Framebuffer>(
-                std::vector<Attachment>{
-                    {.name = name, .format = format.at(format_name), .filter = Filter::nearest},
-                    {.name = name + "_depth", .format = Format::depth24, .filter = Filter::nearest}},
-                size);
-        place->second->resize(size);
-        return *place->second;
+    // The scene's target in that format: made anew where the format or the size has changed.
+    static void remake(Framebuffer& target, const std::string& name, const Choice& format, glm::ivec2 size) {
+        target.remake({{.name = name, .format = formatNamed(format.name()), .filter = Filter::nearest},
+                       {.name = name + "_depth", .format = Format::depth24, .filter = Filter::nearest}},
+                      size);
     }
     // end excerpt
 
@@ -167,9 +157,7 @@ class Hdr final : public Rung {
     void display(Frame& frame) {
         const Program& program = shaders_.fullScreen("01_hdr/display.frag", displayDefines("0"));
         frame.pass("display", frame.presented(),
-                   {.program = program,
-                    .inputs = {{"hdr", target("hdr", options_.format.name(), frame.size()).color()}},
-                    .part = options_.display.part()});
+                   {.program = program, .inputs = {{"hdr", hdr_.color()}}, .part = options_.display.part()});
     }
     // end excerpt
 
@@ -182,20 +170,20 @@ class Hdr final : public Rung {
                 define.value = right.back().value; // both choices list the same curves
         const Program& program = shaders_.fullScreen("01_hdr/display.frag", defines);
         const auto width = static_cast<float>(frame.size().x);
-        frame.pass(
-            "right_display", frame.presented(),
-            {.program = program,
-             .inputs = {{"hdr", target("right_hdr", options_.right_format.name(), frame.size()).color()}},
-             .uniforms = {{"split_px", std::round(options_.split * width)}, {"frame_width_px", width}},
-             .part = {.uniforms = {{"exposure", std::exp2(options_.right_exposure_ev)},
-                                   {"white_point", options_.display.white_point}}}});
+        frame.pass("right_display", frame.presented(),
+                   {.program = program,
+                    .inputs = {{"hdr", right_hdr_.color()}},
+                    .uniforms = {{"split_px", std::round(options_.split * width)}, {"frame_width_px", width}},
+                    .part = {.uniforms = {{"exposure", std::exp2(options_.right_exposure_ev)},
+                                          {"white_point", options_.display.white_point}}}});
     }
 
     ShaderLibrary& shaders_;
     const Options& options_;
     SceneImage image_; // --image
     Mesh hall_ = makeHall();
-    std::map<std::string, std::unique_ptr<Framebuffer>> targets_;
+    Framebuffer hdr_;
+    Framebuffer right_hdr_;
 };
 
 } // namespace

@@ -54,16 +54,16 @@ const Texture& LuminanceMeter::measure(Frame& frame, const Texture& hdr, float w
 
 // excerpt: mipmaps
 const Texture& LuminanceMeter::drawMipmaps(Frame& frame, const Texture& hdr, float white_point) {
-    Framebuffer& target = options_.reduction == "mipmap_r16" ? log_r16_ : log_r16f_;
-    target.resize(hdr.size());
+    const Format format = options_.reduction == "mipmap_r16" ? Format::r16 : Format::r16f;
+    log_luminance_.remake({{.name = "log_luminance", .format = format, .mipmapped = true}}, hdr.size());
     const Program& program = shaders_.fullScreen("02_auto_exposure/log_luminance.frag",
                                                  options_.reduction.defines() + options_.guard.defines());
-    frame.pass("log_luminance", target,
+    frame.pass("log_luminance", log_luminance_,
                {.program = program,
                 .inputs = {{"hdr", hdr}},
                 .part = {.uniforms = {{"epsilon", options_.epsilon}, {"white_point", white_point}}},
                 .generate_mipmaps = true});
-    return target.color();
+    return log_luminance_.color();
 }
 // end excerpt
 
@@ -73,12 +73,9 @@ const Texture& LuminanceMeter::drawAverages(Frame& frame, const Texture& hdr) {
     std::size_t step = 0;
     do {
         const glm::ivec2 size = (source->size() + reduced_by - 1) / reduced_by;
-        if (step == averages_.size())
-            averages_.emplace_back(
-                std::vector<Attachment>{
-                    {.name = "average", .format = Format::rg32f, .filter = Filter::nearest}},
-                size);
-        averages_[step].resize(size);
+        if (step == averages_.size()) averages_.emplace_back();
+        averages_[step].remake({{.name = "average", .format = Format::rg32f, .filter = Filter::nearest}},
+                               size);
         const Program& program =
             shaders_.fullScreen("02_auto_exposure/average.frag",
                                 options_.guard.defines() + Defines{{"FROM_LIGHT", step == 0 ? "1" : "0"}});

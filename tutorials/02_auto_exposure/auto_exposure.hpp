@@ -57,8 +57,7 @@ class LuminanceMeter {
 
     ShaderLibrary& shaders_;
     const AutoExposureOptions& options_;
-    Framebuffer log_r16_{{{.name = "log_luminance", .format = Format::r16, .mipmapped = true}}, {1, 1}};
-    Framebuffer log_r16f_{{{.name = "log_luminance", .format = Format::r16f, .mipmapped = true}}, {1, 1}};
+    Framebuffer log_luminance_;
     std::deque<Framebuffer>
         averages_; // each an eighth of the one before; a deque, so that they stay in place
     Framebuffer histogram_{{{.name = "histogram", .format = Format::rg32f, .filter = Filter::nearest}},

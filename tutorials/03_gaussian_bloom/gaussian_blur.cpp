@@ -180,15 +180,12 @@ double sigmaOf(const BlurPlan& plan) {
                                           : plan.pairs * variance(plan.taps));
 }
 
-GaussianBlur::GaussianBlur(Format format)
-    : across_({{"across", format}}, {1, 1}), blurred_({{"blurred", format}}, {1, 1}) {}
-
 // excerpt: passes
 const Texture& GaussianBlur::draw(Frame& frame, ShaderLibrary& shaders, const Texture& bright,
                                   const BlurPlan& plan) {
     const glm::ivec2 size = plan.half_resolution ? glm::max(frame.size() / 2, 1) : frame.size();
-    across_.resize(size);
-    blurred_.resize(size);
+    across_.remake({{"across", bright.format()}}, size);
+    blurred_.remake({{"blurred", bright.format()}}, size);
     const glm::vec2 texel = 1.0F / glm::vec2(size);
     const glm::vec2 along_row(texel.x, 0);
     const glm::vec2 along_column =

@@ -75,11 +75,9 @@ inline constexpr int most_pairs = 90;
 // "blurred".
 class GaussianBlur {
   public:
-    // The format holds what lies between the passes, and the result.
-    explicit GaussianBlur(Format format);
-
     // Returns the blurred picture, of the frame's size or half of it (rounded down, at least 1); valid until
-    // the next call. bright: of the frame's size, filtered linearly, clamped to its edges.
+    // the next call. bright: of the frame's size, filtered linearly, clamped to its edges; its format holds
+    // what lies between the passes, and the result.
     const Texture& draw(Frame& frame, ShaderLibrary& shaders, const Texture& bright, const BlurPlan& plan);
 
   private:

@@ -11,7 +11,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <optional>
 
 namespace {
 using namespace gll;
@@ -68,10 +67,10 @@ class GaussianBloom final : public Rung {
 
     // excerpt: render
     void render(Frame& frame) override {
-        resize(frame.size());
+        remake(frame.size());
         drawScene(frame);
         const Texture* blurred = nullptr;
-        if (options_.bloom) blurred = &blur_->draw(frame, shaders_, scene_->color(1), blurPlan());
+        if (options_.bloom) blurred = &blur_.draw(frame, shaders_, scene_.color(1), blurPlan());
         composite(frame, blurred);
     }
     // end excerpt
@@ -86,18 +85,11 @@ class GaussianBloom final : public Rung {
 
   private:
     // excerpt: targets
-    void resize(glm::ivec2 size) {
-        const Format format =
-            options_.bright_format == "r11f_g11f_b10f" ? Format::r11f_g11f_b10f : Format::rgba16f;
-        if (!scene_ || scene_->color(1).format() != format) {
-            scene_.emplace(
-                Framebuffer({{.name = "hdr", .format = Format::rgba16f},
-                             {.name = "bright", .format = format},
-                             {.name = "depth", .format = Format::depth24, .filter = Filter::nearest}},
-                            size));
-            blur_.emplace(format);
-        }
-        scene_->resize(size);
+    void remake(glm::ivec2 size) {
+        scene_.remake({{.name = "hdr", .format = Format::rgba16f},
+                       {.name = "bright", .format = formatNamed(options_.bright_format.name())},
+                       {.name = "depth", .format = Format::depth24, .filter = Filter::nearest}},
+                      size);
     }
     // end excerpt
 
@@ -117,10 +109,10 @@ class GaussianBloom final : public Rung {
         const Defines defines = {{"LIGHTS", std::to_string(street_light_count)},
                                  {"BRIGHT_CHANNELS", options_.swizzle == "as_printed" ? "rbg" : "rgb"}};
         if (image_)
-            return image_.draw(frame, "scene", *scene_, "03_gaussian_bloom/image.frag",
+            return image_.draw(frame, "scene", scene_, "03_gaussian_bloom/image.frag",
                                options_.bright_pass.defines() + defines, {{"threshold", threshold}});
         frame.pass(
-            "scene", *scene_,
+            "scene", scene_,
             {.program = shaders_.program("03_gaussian_bloom/scene.vert", "03_gaussian_bloom/scene.frag",
                                          options_.bright_pass.defines() + defines),
              .uniforms = {{"clip_from_world", camera.clipFromView(frame.aspect()) * camera.viewFromWorld()},
@@ -153,7 +145,7 @@ class GaussianBloom final : public Rung {
             shaders_.fullScreen("lib/present.frag", options_.display.defines() + options_.guard.defines() +
                                                         Defines{{"BLOOM", blurred ? "1" : "0"}});
         std::vector<UniformSetting> uniforms;
-        std::vector<Input> inputs = {{"hdr", scene_->color(0)}};
+        std::vector<Input> inputs = {{"hdr", scene_.color(0)}};
         if (blurred) {
             inputs.push_back({"bloom", *blurred});
             uniforms.push_back({"intensity", options_.strength});
@@ -168,8 +160,8 @@ class GaussianBloom final : public Rung {
     const Options& options_;
     SceneImage image_; // --image
     Mesh street_ = makeStreet();
-    std::optional<Framebuffer> scene_; // made when the format is known
-    std::optional<GaussianBlur> blur_;
+    Framebuffer scene_;
+    GaussianBlur blur_;
 };
 
 } // namespace

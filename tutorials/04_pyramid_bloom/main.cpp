@@ -53,11 +53,6 @@ struct PyramidOptions {
     }
 };
 
-Format formatNamed(const std::string& name) {
-    if (name == "rgba8") return Format::rgba8;
-    return name == "rgba16f" ? Format::rgba16f : Format::r11f_g11f_b10f;
-}
-
 class PyramidBloomRung final : public Rung {
   public:
     using Options = PyramidOptions;

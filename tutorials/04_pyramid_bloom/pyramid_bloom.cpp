@@ -16,22 +16,13 @@ constexpr std::array gaussian = {0.2270270270F, 0.1945945946F, 0.1216216216F, 0.
 
 // Level i is the source halved i + 1 times, at least one pixel a side: rounded down, or up where the edges
 // are mirrored, so that no texel of the larger is left over.
-void resizeChain(std::vector<Framebuffer>& chain, const std::string& name, int count, Format format,
+void remakeChain(std::vector<Framebuffer>& chain, const std::string& name, int count, Format format,
                  Wrap wrap, glm::ivec2 source_size) {
-    if (!chain.empty() &&
-        (chain.front().color().format() != format || chain.front().attachments()[0].wrap != wrap))
-        chain.clear();
     const int rounding = wrap == Wrap::mirrored_repeat ? 1 : 0;
-    while (std::ssize(chain) > count)
-        chain.pop_back();
-    for (int i = 0; i < count; ++i) {
+    chain.resize(static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < chain.size(); ++i) {
         source_size = glm::max((source_size + rounding) / 2, 1);
-        const glm::ivec2 size = source_size;
-        if (i < std::ssize(chain))
-            chain[static_cast<std::size_t>(i)].resize(size);
-        else
-            chain.push_back(
-                Framebuffer({{.name = name + std::to_string(i), .format = format, .wrap = wrap}}, size));
+        chain[i].remake({{.name = name + std::to_string(i), .format = format, .wrap = wrap}}, source_size);
     }
 }
 
@@ -70,18 +61,13 @@ void PyramidBloom::allocate(glm::ivec2 source_size, const PyramidBloomParameters
         throw std::invalid_argument("bloom: " + std::to_string(parameters.levels) + " levels; 1 to " +
                                     std::to_string(max_bloom_levels) + " are possible");
     const Wrap wrap = usesSplines(parameters) ? Wrap::mirrored_repeat : Wrap::clamp_to_edge;
-    resizeChain(levels_, "bloom", parameters.levels, parameters.format, wrap, source_size);
-    resizeChain(blurred_, "blur", parameters.blur_radius > 0 ? parameters.levels : 0, parameters.format, wrap,
+    remakeChain(levels_, "bloom", parameters.levels, parameters.format, wrap, source_size);
+    remakeChain(blurred_, "blur", parameters.blur_radius > 0 ? parameters.levels : 0, parameters.format, wrap,
                 source_size);
-    if (!usesSplines(parameters) || std::min(source_size.x, source_size.y) >= smallest_large_px) {
-        full_.clear();
-        return;
-    }
-    if (full_.empty() || full_[0].color().format() != parameters.format) {
-        full_.clear();
-        full_.push_back(Framebuffer({{.name = "bloom", .format = parameters.format}}, source_size));
-    }
-    full_[0].resize(source_size);
+    if (!usesSplines(parameters) || std::min(source_size.x, source_size.y) >= smallest_large_px)
+        return full_.reset();
+    if (!full_) full_.emplace();
+    full_->remake({{.name = "bloom", .format = parameters.format}}, source_size);
 }
 
 const Texture& PyramidBloom::draw(Frame& frame, const Texture& source,
@@ -185,8 +171,8 @@ void PyramidBloom::drawUp(Frame& frame, const PyramidBloomParameters& parameters
                     .inputs = {{"source", level(i + 1)}},
                     .blend = i > 0 || parameters.filters.finest ? Blend::add : Blend::replace});
     }
-    if (!full_.empty())
-        frame.pass("up", full_[0],
+    if (full_)
+        frame.pass("up", *full_,
                    {.program = shaders_.fullScreen("04_pyramid_bloom/up.frag",
                                                    parameters.filters.up_filter.defines() + guard),
                     .inputs = {{"source", level(0)}}});

@@ -99,7 +99,7 @@ class PyramidBloom {
     const Texture& level(int i) const { return levels_.at(static_cast<std::size_t>(i)).color(); }
 
   private:
-    const Texture& result() const { return full_.empty() ? level(0) : full_[0].color(); }
+    const Texture& result() const { return full_ ? full_->color() : level(0); }
     void allocate(glm::ivec2 source_size, const PyramidBloomParameters& parameters);
     bool usesSplines(const PyramidBloomParameters& parameters) const;
     void drawDownBySplines(Frame& frame, const Texture& source, const PyramidBloomParameters& parameters);
@@ -107,7 +107,7 @@ class PyramidBloom {
 
     ShaderLibrary& shaders_;
     std::vector<Framebuffer> levels_;
-    std::vector<Framebuffer> full_; // level 0 at the source's size, where that is small; else empty
+    std::optional<Framebuffer> full_; // level 0 at the source's size, where that is small
     std::vector<Framebuffer>
         blurred_; // one direction blurred, of the levels' sizes; empty while there is no blur
 };

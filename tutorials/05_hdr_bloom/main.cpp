@@ -65,25 +65,19 @@ class HdrBloom final : public Rung {
 
     // excerpt: frame
     void render(Frame& frame) override {
-        resize(frame.size());
+        const Format depth = formatNamed(options_.depth.name());
+        hdr_.remake({{.name = "hdr", .format = Format::rgba16f},
+                     {.name = "depth", .format = depth, .filter = Filter::nearest}},
+                    frame.size());
         drawScene(frame);
-        composite(frame, options_.bloom ? &bloom_.draw(frame, hdr_->color(), bloomParameters()) : nullptr);
+        composite(frame, options_.bloom ? &bloom_.draw(frame, hdr_.color(), bloomParameters()) : nullptr);
     }
     // end excerpt
 
   private:
-    void resize(glm::ivec2 size) {
-        const Format depth = options_.depth == "depth16" ? Format::depth16 : Format::depth24;
-        if (!hdr_ || hdr_->attachments()[1].format != depth)
-            hdr_.emplace(Framebuffer({{.name = "hdr", .format = Format::rgba16f},
-                                      {.name = "depth", .format = depth, .filter = Filter::nearest}},
-                                     size));
-        hdr_->resize(size);
-    }
-
     // excerpt: scene
     void drawScene(Frame& frame) {
-        if (image_) return image_.draw(frame, "scene", *hdr_);
+        if (image_) return image_.draw(frame, "scene", hdr_);
         const float orbit_rad = frame.time_s() * 0.3F;
         const Camera camera = options_.orbit.apply(
             {.position = {14 * std::cos(orbit_rad), 2 * std::sin(2 * orbit_rad), 14 * std::sin(orbit_rad)},
@@ -91,7 +85,7 @@ class HdrBloom final : public Rung {
              .near = 0.1F,
              .far = 60});
         frame.pass(
-            "scene", *hdr_,
+            "scene", hdr_,
             {.program = shaders_.program("05_hdr_bloom/scene.vert", "05_hdr_bloom/scene.frag"),
              .uniforms = {{"clip_from_world", camera.clipFromView(frame.aspect()) * camera.viewFromWorld()},
                           {"camera_position", camera.position},
@@ -122,7 +116,7 @@ class HdrBloom final : public Rung {
         const Program& program = shaders_.fullScreen(
             "lib/present.frag", options_.display.defines() + options_.filters.guard.defines() + with_bloom);
         std::vector<UniformSetting> uniforms;
-        std::vector<Input> inputs = {{"hdr", hdr_->color()}};
+        std::vector<Input> inputs = {{"hdr", hdr_.color()}};
         if (bloom != nullptr) {
             inputs.push_back({"bloom", *bloom});
             uniforms.push_back({"intensity", options_.intensity * PyramidBloom::share(bloomParameters())});
@@ -146,7 +140,7 @@ class HdrBloom final : public Rung {
     ShaderLibrary& shaders_;
     const Options& options_;
     SceneImage image_; // --image
-    std::optional<Framebuffer> hdr_;
+    Framebuffer hdr_;
     PyramidBloom bloom_;
     std::optional<Mesh> swarm_;
     std::array<int, 3> swarm_made_from_ = {};

@@ -56,7 +56,7 @@ std::vector<Attachment> GBufferOptions::attachments() const {
                            std::initializer_list<std::pair<const char*, Format>> formats) {
         for (const auto& [name, value] : formats)
             if (choice == name) return value;
-        return Format::depth24; // beside positions that are stored
+        return formatNamed(choice.name());
     };
     std::vector<Attachment> attachments;
     if (packing == "rgba16")
@@ -68,24 +68,21 @@ std::vector<Attachment> GBufferOptions::attachments() const {
                  albedo,
                  {{"float", Format::rgba32f}, {"linear", Format::rgba8}, {"srgb", Format::srgb8_alpha8}})},
             {.name = "normal",
-             .format = format(normals, {{"rgba32f", Format::rgba32f},
-                                        {"rgba16f", Format::rgba16f},
-                                        {"rgb10", Format::rgb10_a2},
+             .format = format(normals, {{"rgb10", Format::rgb10_a2},
                                         {"rgb8", Format::rgba8},
                                         {"oct16", Format::rg16},
                                         {"oct12", Format::rgba8}, // three bytes hold both, see gbuffer.glsl
                                         {"oct10", Format::rgb10_a2},
                                         {"oct8", Format::rg8}})}};
     if (storesPosition())
-        attachments.push_back(
-            {.name = "position", .format = positions == "rgba32f" ? Format::rgba32f : Format::rgba16f});
+        attachments.push_back({.name = "position", .format = formatNamed(positions.name())});
     if (positions == "linear") attachments.push_back({.name = "view_z", .format = Format::r32f});
     if (glossPlace() == GlossPlace::target)
         attachments.push_back({.name = "gloss", .format = gloss == "float" ? Format::r16f : Format::r8});
     if (geometric) attachments.push_back({.name = "geometric", .format = Format::rg16});
     attachments.push_back(
         {.name = "depth",
-         .format = format(positions, {{"depth16", Format::depth16}, {"depth32f", Format::depth32f}})});
+         .format = positions.name().starts_with("depth") ? formatNamed(positions.name()) : Format::depth24});
     for (Attachment& attachment : attachments)
         attachment.filter = Filter::nearest;
     return attachments;
@@ -125,12 +122,7 @@ std::vector<Draw> withPrograms(ShaderLibrary& shaders, std::vector<Draw> draws, 
 // excerpt: geometry
 void GBuffer::draw(Frame& frame, const std::string& pass, const View& view, const std::vector<Draw>& draws,
                    const Defines& material, const GBufferOptions& options) {
-    const std::string layout = options.packing.name() + options.normals.name() + options.positions.name() +
-                               options.gloss.name() + options.albedo.name() +
-                               (options.geometric ? "geometric" : "");
-    if (layout != made_for_) target_ = Framebuffer(options.attachments(), frame.size());
-    made_for_ = layout;
-    target_.resize(frame.size());
+    target_.remake(options.attachments(), frame.size());
     const std::vector<Draw> ready =
         withPrograms(shaders_, draws, "06_gbuffer/geometry", options.defines() + material);
     frame.pass(pass, target_,

@@ -67,8 +67,7 @@ class GBuffer {
 
   private:
     ShaderLibrary& shaders_;
-    Framebuffer target_{{{.name = "albedo"}}, {1, 1}}; // see GBufferOptions::attachments()
-    std::string made_for_;
+    Framebuffer target_; // see GBufferOptions::attachments()
 };
 
 // Each draw with the program that its variant of the stages needs: the files stages + ".vert" and ".frag".

@@ -149,23 +149,18 @@ void ShadowMap::draw(Frame& frame, const Sun& sun, const gbuffer::View& camera,
     views_ = sunViews(sun, camera, options);
     const int size = options.size;
     const int count = static_cast<int>(views_.size());
-    const std::string kind = options.compares() ? "compared" : "read";
-    if (!target_ || made_for_ != kind)
-        target_.emplace(
-            std::vector<Attachment>{{.name = "shadow",
-                                     .format = Format::depth24,
-                                     .filter = options.compares() ? Filter::linear : Filter::nearest,
-                                     .wrap = Wrap::border_one, // outside of what the sun's view holds
-                                     .compare_depth = options.compares()}}, // all is lit
-            glm::ivec2(size * count, size));
-    made_for_ = kind;
-    target_->resize({size * count, size}); // cascades side by side
+    target_.remake({{.name = "shadow",
+                     .format = Format::depth24,
+                     .filter = options.compares() ? Filter::linear : Filter::nearest,
+                     .wrap = Wrap::border_one, // outside of what the sun's view holds, all is lit
+                     .compare_depth = options.compares()}},
+                   {size * count, size}); // cascades side by side
     const std::vector<Draw> draws = gbuffer::withPrograms(shaders_, casters, "07_shadow_map/shadow", {});
     // What stands between a fitted view and the sun is drawn on the near plane, and still casts its shadow.
     const bool clamped = sun.casters_beyond || options.fit == "fitted" || options.fit == "stable";
     for (int i = 0; i < count; ++i)
         frame.pass(
-            count == 1 ? "shadow" : "shadow" + std::to_string(i), *target_,
+            count == 1 ? "shadow" : "shadow" + std::to_string(i), target_,
             {.program = *draws.front().program,
              .uniforms = {{"light_clip_from_world", views_[static_cast<std::size_t>(i)].clipFromWorld()}},
              .draws = draws,
@@ -184,21 +179,18 @@ void ShadowMap::drawMoments(Frame& frame, const ShadowOptions& options) {
                           : options.filter == "evsm" ? Format::rgba32f
                                                      : Format::rgba16;
     for (const int axis : {0, 1}) {
-        std::optional<Framebuffer>& target = moments_[static_cast<std::size_t>(axis)];
-        if (!target || target->attachments().front().format != format)
-            target.emplace(std::vector<Attachment>{{.name = axis == 0 ? "shadow_moments_x" : "shadow_moments",
-                                                    .format = format,
-                                                    .filter = axis == 0 ? Filter::nearest : Filter::linear}},
-                           target_->size());
-        target->resize(target_->size());
+        Framebuffer& target = moments_[static_cast<std::size_t>(axis)];
+        target.remake({{.name = axis == 0 ? "shadow_moments_x" : "shadow_moments",
+                        .format = format,
+                        .filter = axis == 0 ? Filter::nearest : Filter::linear}},
+                      target_.size());
         glm::ivec2 step(0);
         step[axis] = 1;
         frame.pass(
-            axis == 0 ? "shadow_moments_x" : "shadow_moments_y", *target,
+            axis == 0 ? "shadow_moments_x" : "shadow_moments_y", target,
             {.program = shaders_.fullScreen("07_shadow_map/moments.frag",
                                             options.defines() + Defines{{"FIRST", axis == 0 ? "1" : "0"}}),
-             .inputs = {{"source", axis == 0 ? target_->depth() : moments_[0]->color()}},
-
+             .inputs = {{"source", axis == 0 ? target_.depth() : moments_[0].color()}},
              .part = {.uniforms = {{"texel_step", step}, {"map_size", int(options.size)}}}});
     }
 }
@@ -217,13 +209,13 @@ ShaderPart ShadowMap::part(const Sun& sun, const ShadowOptions& options) const {
         depth_ranges.push_back(view.far - view.near);
     }
     ShaderPart part = {.defines = options.defines(),
-                       .inputs = {{"shadow_map", target_->depth()}},
+                       .inputs = {{"shadow_map", target_.depth()}},
                        .uniforms = {{"to_sun", sun.to_sun},
                                     {"shadow_rows", rows},
                                     {"shadow_texel", texels},
                                     {"shadow_depth_range", depth_ranges},
                                     {"sun_tangent", std::tan(glm::radians(float(options.sun_radius_deg)))}}};
-    if (options.hasMoments()) part.inputs.push_back({"shadow_moments", moments_[1]->color()});
+    if (options.hasMoments()) part.inputs.push_back({"shadow_moments", moments_[1].color()});
     return part;
 }
 

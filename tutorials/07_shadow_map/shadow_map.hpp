@@ -74,9 +74,8 @@ class ShadowMap {
     void drawMoments(Frame& frame, const ShadowOptions& options);
 
     ShaderLibrary& shaders_;
-    std::optional<Framebuffer> target_;
-    std::array<std::optional<Framebuffer>, 2> moments_; // filtered along x, and then y
-    std::string made_for_;
+    Framebuffer target_;
+    std::array<Framebuffer, 2> moments_; // filtered along x, and then y
     std::vector<SunView> views_;
 };
 

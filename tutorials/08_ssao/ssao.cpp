@@ -95,8 +95,10 @@ void Ssao::draw(Frame& frame, const gbuffer::View& view, const ShaderPart& gbuff
                 const SsaoOptions& options) {
     if (!options.isOn()) return;
     const glm::ivec2 size = options.isHalved() ? (frame.size() + 1) / 2 : frame.size();
-    const Framebuffer& occlusion = target(options);
-    (options.isHalved() ? half_ : full_).resize(size);
+    if (options.isHalved())
+        occlusion_.remake({{.name = "ssao", .format = Format::rg16f, .filter = Filter::nearest}}, size);
+    else
+        occlusion_.remake({{.name = "ssao", .format = Format::r8}}, size);
     const bool with_view_z = options.isBlurred() || options.isHalved();
     const Defines defines = gbuffer.defines + options.method.defines() + options.noise.defines() +
                             options.ssao_normals.defines() + options.spacing.defines() +
@@ -122,12 +124,12 @@ void Ssao::draw(Frame& frame, const gbuffer::View& view, const ShaderPart& gbuff
                           {"thickness", options.thickness}}};
     for (Framebuffer& noisy : noisy_)
         if (options.isBlurred()) noisy.resize(size);
-    frame.pass("ssao", options.isBlurred() ? noisy_[0] : occlusion,
+    frame.pass("ssao", options.isBlurred() ? noisy_[0] : occlusion_,
                {.program = shaders_.fullScreen("08_ssao/ssao.frag", defines), .part = part});
 
     const auto blur = [&](const std::string& name, const Framebuffer& from, const Framebuffer& to,
                           glm::ivec2 along) {
-        const bool is_last = &to == &occlusion;
+        const bool is_last = &to == &occlusion_;
         frame.pass(name, to,
                    {.program = shaders_.fullScreen(
                         along == glm::ivec2(1) ? "08_ssao/blur_plane.frag" : "08_ssao/blur.frag",
@@ -137,16 +139,16 @@ void Ssao::draw(Frame& frame, const gbuffer::View& view, const ShaderPart& gbuff
     };
     if (options.ssao_blur == "separable") {
         blur("ssao_blur_x", noisy_[0], noisy_[1], {1, 0});
-        blur("ssao_blur_y", noisy_[1], occlusion, {0, 1});
+        blur("ssao_blur_y", noisy_[1], occlusion_, {0, 1});
     } else if (options.ssao_blur == "plane")
-        blur("ssao_blur", noisy_[0], occlusion, {1, 1});
+        blur("ssao_blur", noisy_[0], occlusion_, {1, 1});
 }
 // end excerpt
 
 ShaderPart Ssao::part(const gbuffer::View& view, const SsaoOptions& options) const {
     return {.defines = options.method.defines() + options.resolution.defines() +
                        Defines{{"SSAO_MULTI_BOUNCE", options.multi_bounce ? "1" : "0"}},
-            .inputs = {{"ssao_map", target(options).color()}},
+            .inputs = {{"ssao_map", occlusion_.color()}},
             .uniforms = {{"view_z_from_world", glm::row(view.view_from_world, 2)}}};
 }
 

@@ -53,13 +53,11 @@ class Ssao {
     ShaderPart part(const gbuffer::View& view, const SsaoOptions& options) const;
 
   private:
-    const Framebuffer& target(const SsaoOptions& options) const { return options.isHalved() ? half_ : full_; }
-
     ShaderLibrary& shaders_;
     std::optional<Texture> noise_; // made when first used
-    Framebuffer full_{{{.name = "ssao", .format = Format::r8}}, {1, 1}};
-    // r: visibility, g: view z, by which the passes that follow tell surfaces apart
-    Framebuffer half_{{{.name = "ssao", .format = Format::rg16f, .filter = Filter::nearest}}, {1, 1}};
+    // r: visibility; g, at half the resolution and before a blur: view z, by which the passes that follow
+    // tell surfaces apart
+    Framebuffer occlusion_{{{.name = "ssao", .format = Format::r8}}, {1, 1}}; // bound even where off
     std::array<Framebuffer, 2> noisy_{
         Framebuffer({{.name = "ssao_noisy", .format = Format::rg16f, .filter = Filter::nearest}}, {1, 1}),
         Framebuffer({{.name = "ssao_half_blurred", .format = Format::rg16f, .filter = Filter::nearest}},

@@ -12,8 +12,11 @@ TEST_F(FramebufferTest, everyRenderableFormatMakesACompleteTarget) {
     for (const Format format :
          {Format::r8, Format::rg8, Format::rgba8, Format::srgb8_alpha8, Format::rgb10_a2, Format::r16,
           Format::rg16, Format::r11f_g11f_b10f, Format::r16f, Format::rg16f, Format::rgba16f, Format::r32f,
-          Format::rg32f, Format::rgba32f, Format::depth16, Format::depth24, Format::depth32f})
+          Format::rg32f, Format::rgba32f, Format::depth16, Format::depth24, Format::depth32f}) {
         EXPECT_NO_THROW(Framebuffer({{"only", format}}, {3, 5})) << formatInfo(format).name;
+        EXPECT_EQ(formatNamed(formatInfo(format).name), format);
+    }
+    EXPECT_EQ(messageOf<std::invalid_argument>([] { formatNamed("rgba17"); }), "there is no format rgba17");
 }
 
 TEST_F(FramebufferTest, whatIsNotCompleteSaysWhichAttachmentsItHas) {
@@ -72,6 +75,33 @@ TEST_F(FramebufferTest, resizeMakesEveryAttachmentAnewAndTheSameSizeKeepsThem) {
     const Program program = makeProgram(full_screen_vertex, flat_fragment);
     draw(target, {.program = program, .uniforms = {{"flat_color", glm::vec4(1)}}});
     EXPECT_EQ(pixelOf(target.color(), 4, 2), glm::vec4(1));
+}
+
+TEST_F(FramebufferTest, remakeMakesAnewOnlyWhatDiffers) {
+    Framebuffer target;
+    EXPECT_EQ(target.colorCount(), 0);
+    EXPECT_FALSE(target.hasDepth());
+    const std::vector<Attachment> depth_first = {{"depth", Format::depth24}, {"a", Format::rgba8}};
+    target.remake(depth_first, {2, 2});
+    const GLuint before = target.color().id();
+    target.remake(depth_first, {2, 2});
+    EXPECT_EQ(target.color().id(), before);
+    const auto isMadeAnew = [&](const Attachment& a, glm::ivec2 size) {
+        target.remake(depth_first, {2, 2});
+        const GLuint old = target.color().id();
+        target.remake({{"depth", Format::depth24}, a}, size);
+        EXPECT_EQ(target.attachments()[0], a);
+        EXPECT_EQ(target.size(), size);
+        return target.color().id() != old;
+    };
+    EXPECT_FALSE(isMadeAnew({"a", Format::rgba8}, {2, 2}));
+    EXPECT_TRUE(isMadeAnew({"a", Format::rgba8}, {2, 3}));
+    EXPECT_TRUE(isMadeAnew({"b", Format::rgba8}, {2, 2}));
+    EXPECT_TRUE(isMadeAnew({"a", Format::rgb10_a2}, {2, 2}));
+    EXPECT_TRUE(isMadeAnew({"a", Format::rgba8, Filter::nearest}, {2, 2}));
+    EXPECT_TRUE(isMadeAnew({.name = "a", .format = Format::rgba8, .wrap = Wrap::repeat}, {2, 2}));
+    EXPECT_TRUE(isMadeAnew({.name = "a", .format = Format::rgba8, .mipmapped = true}, {2, 2}));
+    EXPECT_EQ(target.color().description().levels, 2);
 }
 
 TEST_F(FramebufferTest, aResizeThatFailsLeavesTheFramebufferAsItWas) {
