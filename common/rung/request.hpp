@@ -18,6 +18,8 @@ struct Injection {
         name; // a pass, whose first attachment is meant, or an attachment, at the first pass that draws it
     glm::ivec2 pixel{0}; // counted from the top left
     float value = 0;     // in every channel; may be infinite or not a number
+
+    bool operator==(const Injection&) const = default;
 };
 
 struct FrameRequest {
@@ -41,6 +43,8 @@ struct FrameRequest {
     std::filesystem::path outFor(int frame) const;
     // The preset, then the sets. Throws UsageError as Settings::set() does.
     void applyTo(Settings& settings) const;
+
+    bool operator==(const FrameRequest&) const = default;
 };
 
 // Whether the name of a file to write has a place for the frame's number: a lone %d or %0Nd. Throws

@@ -94,6 +94,9 @@ class Renderer {
     // std::runtime_error on any OpenGL error. What it returns is valid until the next call.
     const std::vector<DrawnPass>& render(int number, glm::ivec2 size, PassObserver* observer = nullptr);
 
+    // Of the frame rendered last.
+    const std::vector<DrawnPass>& passes() const { return passes_; }
+
     // What the rung read in the frame rendered last.
     std::vector<Reading> readings() { return rung_->readings(); }
 

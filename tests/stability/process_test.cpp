@@ -1,5 +1,5 @@
-// What breaks a program rather than a picture: sizes that change and change again, and guards that cost too
-// much.
+// What breaks a program rather than a picture: sizes that change and change again, frames that share a
+// rendering, and guards that cost too much.
 #include "charts/bloom_methods.hpp"
 #include "page_table.hpp"
 #include "support/process.hpp"
@@ -57,6 +57,40 @@ INSTANTIATE_TEST_SUITE_P(Rungs, ResizeStability,
                          testing::Values("01_hdr", "02_auto_exposure", "03_gaussian_bloom",
                                          "04_pyramid_bloom", "05_hdr_bloom"),
                          [](const auto& rung) { return std::string(rung.param); });
+
+// A batch renders a frame once for all of its targets that are asked for in a row.
+TEST(Batch, givesEveryTargetWhatItIsAlone) {
+    const test::TemporaryFolder folder;
+    const std::vector<nlohmann::json> frames = {
+        {{"target", "hdr"}},
+        {{"target", "bloom0"}},
+        {{"target", "bright"}}, // a pass: the same target before levels are added to it
+        {{"target", "frame"}},
+        {{"target", "hdr"}, {"size", "40x30"}},
+        {{"target", "bloom0"}, {"size", "40x30"}, {"set", {"threshold=0.2"}}},
+        {{"target", "hdr"}, {"size", "40x30"}, {"set", {"threshold=0.2"}}, {"frame", 7}},
+        {{"target", "bloom0"}, {"size", "40x30"}, {"frame", 7}},
+        {{"target", "hdr"}, {"size", "40x30"}, {"frame", 7}, {"inject", "scene:5,5:90"}},
+        {{"target", "bloom0"}, {"size", "40x30"}, {"frame", 7}, {"inject", "scene:5,5:90"}}};
+    const auto out = [&](const char* how, std::size_t i) {
+        return folder / (how + std::to_string(i) + ".exr");
+    };
+    const auto render = [&](const std::string& lines) {
+        test::runToSuccess({folders.programs / "05_hdr_bloom",
+                            {"--headless", "--batch", folder.write("batch.jsonl", lines).string()}});
+    };
+    std::string together;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        nlohmann::json line = frames[i];
+        line["out"] = out("together", i).string();
+        together += line.dump() + "\n";
+        line["out"] = out("alone", i).string();
+        render(line.dump() + "\n");
+    }
+    render(together);
+    for (std::size_t i = 0; i < frames.size(); ++i)
+        EXPECT_EQ(test::contents(out("together", i)), test::contents(out("alone", i))) << frames[i];
+}
 
 // At the small end of what is promised, 320x180 to 3840x2160: there what the driver does once a pass, and
 // what the smallest levels take more, count the most. No level of the first halves evenly.
