@@ -36,23 +36,32 @@ uniform vec2 material_shininess; // of materials 0 and 1
 // xyz: world position; w: 0 where there is nothing, the background
 vec4 positionAt(vec2 uv) { return textureLod(position_map, uv, 0.0); }
 #else
-// Depth says how far along the pixel's ray; the ray is linear over the screen. 0: background.
+// Depth says how far along the pixel's ray; the ray is linear over the screen.
 #if STORES_VIEW_Z
-float viewZAt(vec2 uv) { return textureLod(view_z_map, uv, 0.0).r; }
+float viewZAt(vec2 uv, float background) {
+    float view_z = textureLod(view_z_map, uv, 0.0).r;
+    return view_z < 0.0 ? view_z : background;
+}
 #else
-float viewZAt(vec2 uv) {
+float viewZAt(vec2 uv, float background) {
     float depth = textureLod(depth_map, uv, 0.0).r;
-    return depth < 1.0 ? view_z_from_depth.x / (depth + view_z_from_depth.y) : 0.0;
+    return depth < 1.0 ? view_z_from_depth.x / (depth + view_z_from_depth.y) : background;
 }
 #endif
 
 vec4 positionAt(vec2 uv) {
-    float view_z = viewZAt(uv);
+    float view_z = viewZAt(uv, 0.0);
     vec3 ray = world_from_ray * vec3(uv * 2.0 - 1.0, 1.0);
     return vec4(camera_position - view_z * ray, view_z < 0.0 ? 1.0 : 0.0);
 }
 #endif
 // end excerpt
+
+// Of steps across and up a surface: towards the camera, as x, y and it are right-handed.
+vec3 normalOf(vec3 across, vec3 up) {
+    vec3 normal = cross(across, up);
+    return normal * inversesqrt(max(dot(normal, normal), 1e-30));
+}
 
 // excerpt: geometric_normal
 #if STORES_GEOMETRIC
@@ -71,8 +80,7 @@ vec3 geometricNormalAt(vec2 uv, vec3 world_position) {
     vec3 above = positionAt(uv + vec2(0.0, texel.y)).xyz - world_position;
     vec3 across = dot(left, left) < dot(right, right) ? left : right;
     vec3 up = dot(below, below) < dot(above, above) ? below : above;
-    vec3 normal = cross(across, up); // towards the camera, as x, y and it are right-handed
-    return normal * inversesqrt(max(dot(normal, normal), 1e-30));
+    return normalOf(across, up);
 }
 #endif
 // end excerpt

@@ -286,7 +286,7 @@ void main() {
                  {.program = program(R"(#include "06_gbuffer/read_gbuffer.glsl"
 in vec2 uv;
 out float view_z;
-void main() { view_z = viewZAt(uv); })",
+void main() { view_z = viewZAt(uv, 0.0); })",
                                      layout.options.defines()),
                   .inputs = {{"depth_map", target.depth()}},
                   .uniforms = {{"view_z_from_depth", reading}}},
