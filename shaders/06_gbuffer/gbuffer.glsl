@@ -23,7 +23,6 @@ struct Surface {
     vec3 world_normal;   // unit length
     float shininess;     // exponent of the Blinn highlight, [1, max_shininess]
     vec3 world_position; // world units
-    float material;      // 0 or 1; read back only with gloss=palette
 };
 
 const float max_specular = 0.6;         // of any material

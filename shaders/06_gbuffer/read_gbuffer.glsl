@@ -98,7 +98,6 @@ Surface surfaceAt(vec2 uv, vec4 position) {
     surface.world_normal = packedNormal(words);
     surface.shininess = packedShininess(words);
     surface.world_position = position.xyz;
-    surface.material = 0.0;
     return surface;
 }
 #else
@@ -113,7 +112,6 @@ Surface surfaceAt(vec2 uv, vec4 position) {
     surface.specular = albedo.a;
     surface.world_position = position.xyz;
     surface.world_normal = unpackNormal(normal);
-    surface.material = 0.0;
 #if GLOSS_IN == GLOSS_IN_NORMAL_ALPHA
     surface.shininess = unpackGloss(normal.a);
 #elif GLOSS_IN == GLOSS_IN_NORMAL_BLUE
@@ -130,8 +128,7 @@ Surface surfaceAt(vec2 uv, vec4 position) {
     vec2 specular_upper = unpackSpecular(albedo.a);
     surface.specular = specular_upper.x;
 #if GLOSS == GLOSS_PALETTE
-    surface.material = specular_upper.y;
-    surface.shininess = mix(material_shininess.x, material_shininess.y, surface.material);
+    surface.shininess = mix(material_shininess.x, material_shininess.y, specular_upper.y);
 #else
     surface.shininess = unpackGloss(specular_upper.y / 15.0);
 #endif
