@@ -23,6 +23,14 @@ inline std::string inQuotes(std::string_view word) {
     return result + "'";
 }
 
+// Without blanks at either end, the return before a line feed among them.
+inline std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view blanks = " \t\r";
+    const std::size_t begin = text.find_first_not_of(blanks);
+    if (begin == std::string_view::npos) return {};
+    return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+}
+
 // The bytes of a regular file of at most max_bytes. Anything else is never opened (opening a FIFO would
 // hang). Throws std::runtime_error "path: what, what to do".
 std::string readFile(const std::filesystem::path& path, std::size_t max_bytes);

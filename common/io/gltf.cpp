@@ -1,7 +1,7 @@
 // Reads glTF 2.0 meshes and materials. What the JSON says is checked in gltf_file.cpp as it is read; how it
 // fits together, and what lies inside the buffers (indices, numbers that are not finite), is checked here.
 #include "io/files.hpp"
-#include "io/gltf_file.hpp"
+#include "io/gltf_accessor.hpp"
 #include "io/mesh_build.hpp"
 
 #include <glm/common.hpp>
@@ -14,19 +14,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <set>
 #include <utility>
 
 namespace gll {
 namespace {
-
-using Values = std::array<double, 4>;
-
-// An accessor without a buffer view is all zeros but for its sparse values; it costs a file nothing to claim
-// many.
-constexpr std::size_t max_zero_elements = std::size_t(1) << 20;
 
 // Read as they are meant, or said to be left out where they are met. Unlit materials are lit.
 const std::vector<std::string_view> extensions_read = {"KHR_texture_transform", "KHR_mesh_quantization",
@@ -51,100 +44,6 @@ constexpr std::string_view extensions_not_missed[] = {"KHR_draco_mesh_compressio
                                                       "EXT_mesh_features",
                                                       "EXT_instance_features",
                                                       "FB_ngon_encoding"};
-
-// --- numbers in buffers ---
-
-struct ComponentType {
-    std::size_t code = 0;
-    std::size_t bytes = 0;
-    double (*read)(const char*) = nullptr;
-    double largest = 0; // of whole numbers, what 1 is stored as where they are normalised
-};
-
-template <typename Stored>
-double stored(const char* bytes) {
-    Stored value;
-    std::memcpy(&value, bytes, sizeof value); // buffers promise no alignment
-    return static_cast<double>(value);
-}
-
-constexpr std::size_t unsigned_byte = 5121;
-constexpr std::size_t unsigned_short = 5123;
-constexpr std::size_t unsigned_int = 5125;
-constexpr std::size_t single_float = 5126;
-constexpr ComponentType component_types[] = {{5120, 1, stored<std::int8_t>, 127},
-                                             {unsigned_byte, 1, stored<std::uint8_t>, 255},
-                                             {5122, 2, stored<std::int16_t>, 32767},
-                                             {unsigned_short, 2, stored<std::uint16_t>, 65535},
-                                             {unsigned_int, 4, stored<std::uint32_t>, 4294967295.0},
-                                             {single_float, 4, stored<float>, 1}};
-
-ComponentType componentType(const GltfValue& code) {
-    const std::size_t number = code.whole(5120, 5126);
-    for (const ComponentType& type : component_types)
-        if (type.code == number) return type;
-    code.fail("is none of glTF's types");
-}
-
-std::size_t componentCount(const GltfValue& type) {
-    constexpr std::pair<std::string_view, std::size_t> counts[] = {
-        {"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
-    for (const auto& [name, count] : counts)
-        if (name == type.text()) return count;
-    type.fail("is " + inQuotes(type.text()) + ", none of glTF's types");
-}
-
-// A run of elements inside a buffer view, which holds all of them.
-struct Elements {
-    const char* first = nullptr; // null: all are zero
-    std::size_t stride = 0;      // bytes from one to the next
-};
-
-struct Accessor {
-    GltfValue place;
-    std::string type;
-    ComponentType component;
-    std::size_t components = 0; // of an element
-    std::size_t count = 0;
-    bool normalized = false;
-    Elements elements = {};
-    // of those that replace some elements
-    std::size_t sparse_count = 0;
-    ComponentType position_type = {};
-    Elements positions = {};
-    Elements replacements = {};
-};
-
-// Calls use(i, values) for every element i; a second time, with the values that count, for those that are
-// sparse. At most four components.
-template <typename Use>
-void forEachElement(const Accessor& accessor, const Use& use) {
-    Values values{};
-    const auto useElement = [&](std::size_t i, const char* bytes) {
-        for (std::size_t k = 0; k < accessor.components; ++k, bytes += accessor.component.bytes) {
-            values[k] = accessor.component.read(bytes);
-            if (accessor.normalized) values[k] = std::max(values[k] / accessor.component.largest, -1.0);
-            if (!std::isfinite(values[k]))
-                accessor.place.fail("element " + std::to_string(i) + " is not a finite number");
-        }
-        use(i, values);
-    };
-    for (std::size_t i = 0; i < accessor.count; ++i) {
-        if (accessor.elements.first != nullptr)
-            useElement(i, accessor.elements.first + i * accessor.elements.stride);
-        else
-            use(i, values);
-    }
-    for (std::size_t k = 0; k < accessor.sparse_count; ++k) {
-        const auto i = static_cast<std::size_t>(
-            accessor.position_type.read(accessor.positions.first + k * accessor.positions.stride));
-        if (i >= accessor.count)
-            accessor.place["sparse"]["indices"].fail("position " + std::to_string(i) +
-                                                     " is beyond the accessor's " +
-                                                     std::to_string(accessor.count) + " elements");
-        useElement(i, accessor.replacements.first + k * accessor.replacements.stride);
-    }
-}
 
 class GltfReader {
   public:
@@ -397,83 +296,6 @@ class GltfReader {
         return known->second;
     }
 
-    // --- accessors ---
-
-    // Where `count` elements of `bytes` each lie, from an offset into a view.
-    Elements elements(const GltfValue& view, const GltfValue& offset, std::size_t count, std::size_t bytes,
-                      const GltfValue& place) {
-        const std::string_view data = file_.bytes(view);
-        const std::size_t first = offset.whole(0, max_mesh_file_bytes, 0);
-        const std::size_t stride = view["byteStride"].whole(4, 252, bytes);
-        if (stride < bytes)
-            place.fail("has elements of " + std::to_string(bytes) + " bytes in a view of stride " +
-                       std::to_string(stride));
-        const std::size_t end = first + stride * (count - 1) + bytes; // all below 2^28: no overflow
-        if (end > data.size())
-            place.fail("ends at byte " + std::to_string(end) + " of a buffer view of " +
-                       std::to_string(data.size()));
-        return {.first = data.data() + first, .stride = stride};
-    }
-
-    Accessor accessor(const GltfValue& number) {
-        const GltfValue place = number.in(file_["accessors"]);
-        const GltfValue views = file_["bufferViews"];
-        Accessor accessor{.place = place,
-                          .type = place.needed("type").text(),
-                          .component = componentType(place.needed("componentType")),
-                          .components = componentCount(place["type"]),
-                          .count = place.needed("count").whole(1, max_mesh_indices),
-                          .normalized = place["normalized"].flag()};
-        const std::size_t bytes = accessor.component.bytes * accessor.components;
-        if (const GltfValue view = place["bufferView"])
-            accessor.elements = elements(view.in(views), place["byteOffset"], accessor.count, bytes, place);
-        else if (accessor.count > max_zero_elements)
-            place.fail("has " + std::to_string(accessor.count) + " elements without a buffer view, at most " +
-                       std::to_string(max_zero_elements) + " are read");
-        if (const GltfValue sparse = place["sparse"]) {
-            accessor.sparse_count = sparse.needed("count").whole(1, accessor.count);
-            const auto part = [&](const GltfValue& data, std::size_t element_bytes) {
-                const GltfValue view = data.needed("bufferView").in(views);
-                if (view["byteStride"]) data["bufferView"].fail("has a stride, sparse data has none");
-                return elements(view, data["byteOffset"], accessor.sparse_count, element_bytes, data);
-            };
-            const GltfValue indices = sparse.needed("indices");
-            accessor.position_type = componentType(indices.needed("componentType"));
-            requireUnsigned(accessor.position_type, indices["componentType"]);
-            accessor.positions = part(indices, accessor.position_type.bytes);
-            accessor.replacements = part(sparse.needed("values"), bytes);
-        }
-        return accessor;
-    }
-
-    static void requireUnsigned(const ComponentType& type, const GltfValue& place) {
-        if (type.code != unsigned_byte && type.code != unsigned_short && type.code != unsigned_int)
-            place.fail("is not SCALAR of unsigned whole numbers");
-    }
-
-    // An attribute, if the primitive has it; types as in glTF 2.0, section 3.7.2.1, and
-    // KHR_mesh_quantization.
-    std::optional<Accessor> attribute(const GltfValue& attributes, const char* key, std::string_view types,
-                                      bool small_unsigned, std::size_t vertices) {
-        const GltfValue number = attributes[key];
-        if (!number) return std::nullopt;
-        const Accessor found = accessor(number);
-        const std::size_t code = found.component.code;
-        const bool small = code <= unsigned_short;
-        const bool fits = code == single_float ||
-                          (small_unsigned && (code == unsigned_byte || code == unsigned_short)) ||
-                          (small && file_.requiresExtension("KHR_mesh_quantization"));
-        if (types.find(found.type) == std::string_view::npos || (!fits && !small))
-            number.fail("refers to an accessor of another type than " + std::string(types) + " of float" +
-                        (small_unsigned ? ", unsigned byte or unsigned short" : ""));
-        if (!fits)
-            number.fail("is stored in small whole numbers, name KHR_mesh_quantization in extensionsRequired");
-        if (found.count != vertices)
-            number.fail("has " + std::to_string(found.count) + " elements for " + std::to_string(vertices) +
-                        " vertices");
-        return found;
-    }
-
     // --- meshes ---
 
     void addMesh(const GltfValue& mesh, const GltfValue& node, const glm::dmat4& to_world) {
@@ -498,11 +320,11 @@ class GltfReader {
         constexpr std::size_t strip_mode = 5;
         std::vector<std::uint32_t> order;
         if (const GltfValue indices = primitive["indices"]) {
-            const Accessor found = accessor(indices);
+            const GltfAccessor found = readAccessor(file_, indices);
             if (found.type != "SCALAR") indices.fail("is not SCALAR of unsigned whole numbers");
             requireUnsigned(found.component, indices);
             order.resize(found.count);
-            forEachElement(found, [&](std::size_t i, const Values& values) {
+            forEachElement(found, [&](std::size_t i, const GltfValues& values) {
                 if (values[0] >= static_cast<double>(vertices))
                     found.place.fail("element " + std::to_string(i) + " is index " +
                                      std::to_string(static_cast<std::uint32_t>(values[0])) + " of " +
@@ -543,24 +365,24 @@ class GltfReader {
         if (draco && !position.in(file_["accessors"])["bufferView"])
             draco.fail("holds the only copy of the geometry, and is not read; export without compression");
 
-        std::size_t vertices = accessor(position).count;
+        std::size_t vertices = readAccessor(file_, position).count;
         if (vertices > max_mesh_vertices)
             position.fail("has more than " + std::to_string(max_mesh_vertices) + " vertices");
-        const Accessor positions = *attribute(attributes, "POSITION", "VEC3", false, vertices);
-        const auto normals = attribute(attributes, "NORMAL", "VEC3", false, vertices);
-        const auto uvs = attribute(attributes, "TEXCOORD_0", "VEC2", true, vertices);
-        auto tangents = attribute(attributes, "TANGENT", "VEC4", false, vertices);
+        const GltfAccessor positions = *readAttribute(file_, attributes, "POSITION", "VEC3", false, vertices);
+        const auto normals = readAttribute(file_, attributes, "NORMAL", "VEC3", false, vertices);
+        const auto uvs = readAttribute(file_, attributes, "TEXCOORD_0", "VEC2", true, vertices);
+        auto tangents = readAttribute(file_, attributes, "TANGENT", "VEC4", false, vertices);
         if (!normals) tangents.reset(); // as glTF says
-        auto colors = attribute(attributes, "COLOR_0", "VEC3, VEC4", true, vertices);
+        auto colors = readAttribute(file_, attributes, "COLOR_0", "VEC3, VEC4", true, vertices);
         std::vector<std::uint32_t> triangles = triangleIndices(primitive, mode, vertices);
         const std::size_t material_number = materialNumber(primitive["material"]);
         const MaterialData& material = mesh_.materials[material_number];
-        std::optional<Accessor> second_uvs;
+        std::optional<GltfAccessor> second_uvs;
         for (const TextureData* texture :
              {&material.base_color_texture, &material.roughness_texture, &material.metallic_texture,
               &material.normal_texture, &material.occlusion_texture, &material.emitted_color_texture})
             if (texture->uv_set == 1)
-                second_uvs = attribute(attributes, "TEXCOORD_1", "VEC2", true, vertices);
+                second_uvs = readAttribute(file_, attributes, "TEXCOORD_1", "VEC2", true, vertices);
 
         // Without normals faces are flat, and flat faces share no vertices: vertex i is corner i.
         std::vector<std::uint32_t> corners;
@@ -586,15 +408,16 @@ class GltfReader {
         const double handedness = glm::dot(linear[0], cofactor[0]) < 0.0 ? -1.0 : 1.0;
 
         // Element i of an attribute, converted, goes to every vertex that is made of it.
-        const auto fill = [&](auto& to, const Accessor& from, auto missing, const auto& convert) {
+        const auto fill = [&](auto& to, const GltfAccessor& from, auto missing, const auto& convert) {
             std::vector<decltype(missing)> read(vertices, missing);
-            forEachElement(from, [&](std::size_t i, const Values& values) { read[i] = convert(i, values); });
+            forEachElement(from,
+                           [&](std::size_t i, const GltfValues& values) { read[i] = convert(i, values); });
             to.resize(first, missing); // as parts before this one have none
             for (std::size_t i = 0; i < added; ++i)
                 to.push_back(read[normals ? i : corners[i]]);
         };
-        const auto toUv = [](std::size_t, const Values& v) { return glm::vec2(v[0], v[1]); };
-        fill(mesh_.positions, positions, glm::vec3(0.0F), [&](std::size_t i, const Values& v) {
+        const auto toUv = [](std::size_t, const GltfValues& v) { return glm::vec2(v[0], v[1]); };
+        fill(mesh_.positions, positions, glm::vec3(0.0F), [&](std::size_t i, const GltfValues& v) {
             const glm::dvec4 world = to_world * glm::dvec4(v[0], v[1], v[2], 1.0);
             for (int k = 0; k < 3; ++k)
                 if (!(std::abs(world[k]) <= GltfValue::largest))
@@ -603,7 +426,7 @@ class GltfReader {
         });
         mesh_.normals.resize(first + added, glm::vec3(0.0F, 0.0F, 1.0F));
         if (normals) {
-            forEachElement(*normals, [&](std::size_t i, const Values& v) {
+            forEachElement(*normals, [&](std::size_t i, const GltfValues& v) {
                 mesh_.normals[first + i] =
                     unitOr(cofactor * glm::dvec3(v[0], v[1], v[2]) * handedness, glm::vec3(0.0F, 0.0F, 1.0F));
             });
@@ -612,7 +435,7 @@ class GltfReader {
         mesh_.uvs.resize(first + added, glm::vec2(0.0F));
         if (second_uvs) fill(mesh_.second_uvs, *second_uvs, glm::vec2(0.0F), toUv);
         if (tangents) {
-            fill(mesh_.tangents, *tangents, glm::vec4(0.0F), [&](std::size_t, const Values& v) {
+            fill(mesh_.tangents, *tangents, glm::vec4(0.0F), [&](std::size_t, const GltfValues& v) {
                 const glm::vec3 tangent = unitOr(linear * glm::dvec3(v[0], v[1], v[2]), glm::vec3(0.0F));
                 const double sign = (v[3] < 0.0 ? -1.0 : 1.0) * handedness;
                 return tangent == glm::vec3(0.0F) ? glm::vec4(0.0F)
@@ -620,10 +443,9 @@ class GltfReader {
             });
         }
         if (colors) {
-            colors->normalized =
-                colors->component.code != single_float; // the only meaning whole numbers have here
+            colors->normalized = !colors->component.isFloat(); // the only meaning whole numbers have here
             const bool has_alpha = colors->components == 4;
-            fill(mesh_.colors, *colors, glm::vec4(1.0F), [&](std::size_t, const Values& v) {
+            fill(mesh_.colors, *colors, glm::vec4(1.0F), [&](std::size_t, const GltfValues& v) {
                 const glm::dvec4 color(v[0], v[1], v[2], has_alpha ? v[3] : 1.0);
                 return glm::vec4(glm::clamp(color, 0.0, 1.0));
             });

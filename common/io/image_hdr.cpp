@@ -13,13 +13,6 @@ namespace {
 // No line of a header comes near this.
 constexpr std::size_t longest_line = 65536;
 
-std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view blanks = " \t\r";
-    const std::size_t begin = text.find_first_not_of(blanks);
-    if (begin == std::string_view::npos) return {};
-    return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
-
 // Exactly as many numbers, with blanks between.
 template <std::size_t count>
 std::array<double, count> numbersOf(std::string_view text, std::string_view key, const std::string& name) {

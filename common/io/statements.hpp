@@ -70,12 +70,6 @@ struct Statement {
     std::string where() const { return path + ":" + std::to_string(line_number); }
 };
 
-inline std::string_view trimmed(std::string_view text) {
-    const std::size_t begin = text.find_first_not_of(" \t");
-    if (begin == std::string_view::npos) return {};
-    return text.substr(begin, text.find_last_not_of(" \t") - begin + 1);
-}
-
 // The next word of text, which is shortened by it; empty at the end.
 inline std::string_view nextWord(std::string_view& text) {
     text = trimmed(text);
