@@ -35,7 +35,8 @@ struct BudgetResult {
     Sets best = {};                           // every dial as it was measured against
     Sets picked = {};                         // every dial as it was found
     std::vector<std::string> not_needed = {}; // "levels above 3", "format=rgba16f (rgba8 will do)"
-    double error = 0;                         // the largest in all frames looked at, of the budget's kind
+    double error_to_spend = 0; // the part of the limit that was kept to in the frames looked at
+    double error = 0;          // the largest in all frames looked at, of the budget's kind
     double cost_cu = 0;
     double best_cost_cu = 0;
     double present_error = 0; // of the settings that the search began with, likewise
