@@ -5,169 +5,24 @@
 //     tests/run -L mutation                              one fault in twenty: minutes
 //     build/release/bin/mutation --sample 8 ...         a quick look, in every run
 //     build/release/bin/mutation --only lib/ --share 1   every fault of some files
-#include "golden/case.hpp"
 #include "mutation/mutants.hpp"
+#include "mutation/rendering.hpp"
 #include "support/comparison.hpp"
 #include "support/process.hpp"
-#include "support/temporary_folder.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <mutex>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <thread>
 
 namespace {
 using namespace gll;
 using namespace gll::test;
 namespace fs = std::filesystem;
-
-const std::map<std::string, std::optional<std::string>> rasteriser = {
-    {"GALLIUM_DRIVER", "llvmpipe"}, {"LIBGL_ALWAYS_SOFTWARE", "1"}, {"LP_NUM_THREADS", "0"}};
-
-std::string readText(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw std::runtime_error(file.string() + ": cannot be read");
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-}
-
-// What stands between double quotes in a text, where it names a shader.
-std::set<std::string> shadersNamedIn(const std::string& text) {
-    std::set<std::string> names;
-    for (auto open = text.find('"'); open != std::string::npos; open = text.find('"', open + 1)) {
-        const auto close = text.find('"', open + 1);
-        if (close == std::string::npos) break;
-        const std::string name = text.substr(open + 1, close - open - 1);
-        if (name.ends_with(".frag") || name.ends_with(".vert") || name.ends_with(".glsl")) names.insert(name);
-    }
-    return names;
-}
-
-struct Rung {
-    std::string name;
-    fs::path program;
-    std::vector<GoldenCase> cases;
-    std::vector<Image> references; // one a case
-    std::set<std::string> shaders; // those that it may draw with
-};
-
-// The shaders of a rung's folder, whatever its C++ calls them; those that its C++ names, its own and what it
-// includes of other rungs; and what all these include.
-std::set<std::string> shadersOf(const fs::path& root, const std::string& rung) {
-    std::vector<fs::path> sources;
-    std::set<fs::path> seen;
-    const auto visit = [&](const fs::path& file) {
-        if (fs::exists(file) && seen.insert(file).second) sources.push_back(file);
-    };
-    for (const fs::path& folder : {root / "tutorials" / rung, root / "common"})
-        for (const auto& entry : fs::recursive_directory_iterator(folder))
-            if (entry.path().extension() == ".cpp" || entry.path().extension() == ".hpp") visit(entry.path());
-    std::set<std::string> shaders;
-    if (const fs::path own = root / "shaders" / rung; fs::is_directory(own))
-        for (const auto& entry : fs::directory_iterator(own))
-            shaders.insert(rung + "/" + entry.path().filename().string());
-    for (std::size_t i = 0; i < sources.size(); ++i) {
-        const std::string text = readText(sources[i]);
-        shaders.merge(shadersNamedIn(text));
-        for (auto at = text.find("#include \""); at != std::string::npos;
-             at = text.find("#include \"", at + 1)) {
-            const fs::path header =
-                root / "tutorials" / text.substr(at + 10, text.find('"', at + 10) - at - 10);
-            visit(header);
-            visit(fs::path(header).replace_extension(".cpp"));
-        }
-    }
-    for (bool grows = true; grows;) {
-        const std::size_t before = shaders.size();
-        std::set<std::string> included;
-        for (const std::string& name : shaders)
-            if (fs::exists(root / "shaders" / name))
-                included.merge(shadersNamedIn(readText(root / "shaders" / name)));
-        shaders.merge(included);
-        grows = shaders.size() > before;
-    }
-    return shaders;
-}
-
-// A folder that rungs take for theirs, because they find shaders and assets from the executable's place.
-class Copy {
-  public:
-    Copy(const fs::path& root, const std::vector<Rung>& rungs) {
-        fs::create_directories(folder_ / "bin");
-        for (const Rung& rung : rungs)
-            fs::copy_file(rung.program, folder_ / "bin" / rung.name);
-        fs::copy(root / "shaders", folder_ / "shaders", fs::copy_options::recursive);
-        fs::create_directory_symlink(fs::canonical(root / "assets"), folder_ / "assets");
-    }
-    fs::path program(const Rung& rung) const { return folder_ / "bin" / rung.name; }
-    void write(const std::string& shader, const std::string& text) const {
-        folder_.write(fs::path("shaders") / shader, text);
-    }
-
-  private:
-    TemporaryFolder folder_;
-};
-
-// Renders cases of a rung one after the other, and looks at each as soon as it is there.
-class Rendering {
-  public:
-    Rendering(const Copy& copy, const Rung& rung, const fs::path& goldens,
-              const std::vector<std::size_t>& cases)
-        : count_(cases.size()) {
-        std::string lines;
-        for (std::size_t i = 0; i < count_; ++i) {
-            nlohmann::ordered_json line = batchLine(rung.cases[cases[i]], goldens / rung.name);
-            line["out"] = file(i).string();
-            lines += line.dump() + "\n";
-        }
-        const fs::path batch = folder_.write("batch.jsonl", lines);
-        process_.emplace(
-            Command{copy.program(rung), {"--context", "osmesa", "--batch", batch.string()}, rasteriser});
-    }
-
-    // The next frame; nothing where it could not be drawn, or after the last. A frame is whole once the next
-    // one is begun or the program has ended.
-    std::optional<Image> next() {
-        const std::size_t i = next_++;
-        while (!end_) {
-            end_ = process_->poll();
-            for (std::size_t later = i + 1; later < count_; ++later)
-                if (fs::exists(file(later)))
-                    return fs::exists(file(i)) ? std::optional(loadImage(file(i))) : std::nullopt;
-            if (std::chrono::steady_clock::now() - begin_ > std::chrono::seconds(100)) {
-                hangs_ = true;
-                return std::nullopt;
-            }
-            if (!end_) std::this_thread::sleep_for(std::chrono::milliseconds(3));
-        }
-        return fs::exists(file(i)) ? std::optional(loadImage(file(i))) : std::nullopt;
-    }
-    bool atEnd() const { return next_ >= count_ || hangs_; }
-    bool hangs() const { return hangs_; }
-    // What it said on stderr, after the last frame.
-    std::string messages() {
-        if (!end_) end_ = process_->wait(std::chrono::seconds(100));
-        return end_->err;
-    }
-
-  private:
-    fs::path file(std::size_t i) const { return folder_ / (std::to_string(i) + ".png"); }
-
-    TemporaryFolder folder_;
-    std::size_t count_;
-    std::size_t next_ = 0;
-    bool hangs_ = false;
-    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-    std::optional<Process> process_;
-    std::optional<ProcessResult> end_;
-};
 
 enum class Verdict { killed, survived, excused, invalid };
 
