@@ -16,7 +16,8 @@ const float radius = 0.5; // world units, as in balls.hpp
 
 void main() {
     vec3 ray = normalize(world_position - camera_position);
-    vec3 from_middle = camera_position - middle;
+    // from where the ray meets the square: from the camera, squares of 12 units would leave rounding of what is 0.5
+    vec3 from_middle = world_position - middle;
     float along = dot(from_middle, ray);
     float inside = along * along - dot(from_middle, from_middle) + radius * radius;
     if (inside < 0.0) discard;

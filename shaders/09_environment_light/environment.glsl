@@ -139,16 +139,19 @@ vec2 environmentBrdf(float cosine, float roughness) {
 #if SUN_BY_ITSELF
 // excerpt: sun
 // The sun as a light of its own: no split sum, GGX as it is. Its highlight is never sharper than the sun is small: a
-// lobe that much wider has the peak that the sun has in a mirror. Towards a mirror level 0 takes over, where the sun
-// still is.
+// lobe that much wider has, seen along the normal, the peak that the sun has in a mirror. Towards a mirror level 0 takes
+// over, where the sun still is.
 vec3 sunReflected(vec3 normal, vec3 to_camera, vec3 reflectance, float roughness) {
-    vec3 halfway = normalize(to_brightest + to_camera);
-    float lit = max(dot(normal, to_brightest), 0.0);
+    float lit = dot(normal, to_brightest);
+    vec3 sum = to_brightest + to_camera;
+    if (lit <= 0.0 || dot(sum, sum) == 0.0) return vec3(0.0);
+    vec3 halfway = normalize(sum);
     float seen = max(dot(normal, to_camera), 1e-3);
     float alpha = roughness * roughness;
     float alpha_squared = clamp(alpha * alpha + brightest_spread, 1e-6, 1.0);
     float along = dot(normal, halfway);
-    float spread = along * along * (alpha_squared - 1.0) + 1.0;
+    vec3 apart = cross(normal, halfway); // 1 - along^2 would leave nothing but rounding where a lobe is sharp
+    float spread = dot(apart, apart) + alpha_squared * along * along;
     float masked = lit * sqrt(alpha_squared + seen * seen * (1.0 - alpha_squared)) +
                    seen * sqrt(alpha_squared + lit * lit * (1.0 - alpha_squared)); // Heitz 2014: Smith, by height
     float lobe = alpha_squared / (spread * spread) * 0.5 / max(masked, 1e-6); // times pi, which irradiance lacks
@@ -175,7 +178,8 @@ vec3 environmentReflected(vec3 normal, vec3 to_camera, vec3 irradiance, vec3 ref
 #else
     vec2 brdf = environmentBrdf(cosine, roughness);
     vec3 once = reflectance * brdf.x + brdf.y;
-    float all = brdf.x + brdf.y; // of a surface that absorbs nothing: less than 1 is what leaves on a second bounce
+    // Of a surface that absorbs nothing: less than 1 is what leaves on a second bounce. Half floats may add up to more.
+    float all = min(brdf.x + brdf.y, 1.0);
 #if ENVIRONMENT_ENERGY == ENVIRONMENT_ENERGY_NONE
     return radiance * once + sun;
 #elif ENVIRONMENT_ENERGY == ENVIRONMENT_ENERGY_FDEZ_AGUERA

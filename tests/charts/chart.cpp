@@ -295,7 +295,9 @@ namespace {
 // chart narrower; missing says whether there were such.
 std::string chartScript(const Axes& axes, const std::vector<Point>& points, const Theme& theme, bool with_key,
                         bool& missing) {
-    const std::vector<bool> front = axes.dial_is_given ? worstFront(points) : paretoFront(points);
+    const std::vector<bool> front = !axes.x_is_cost      ? std::vector<bool>(points.size())
+                                    : axes.dial_is_given ? worstFront(points)
+                                                         : paretoFront(points);
     Scale scale = scaleFor(axes, points);
     scale.right_px = with_key ? plot_right_beside_key : plot_right;
     const auto y = [&](double error) { return axes.log_y ? std::max(error, axes.floor) : error; };
@@ -307,7 +309,7 @@ std::string chartScript(const Axes& axes, const std::vector<Point>& points, cons
         return static_cast<std::size_t>(std::find(methods.begin(), methods.end(), method) - methods.begin());
     };
     // Strong where a method is on the front: of a dial that is given, with all of its points.
-    std::vector<bool> strong = front;
+    std::vector<bool> strong = axes.x_is_cost ? front : std::vector<bool>(points.size(), true);
     if (axes.dial_is_given)
         for (std::size_t i = 0; i < points.size(); ++i)
             for (std::size_t j = 0; j < points.size(); ++j)
@@ -414,9 +416,11 @@ std::string chartScript(const Axes& axes, const std::vector<Point>& points, cons
                   << style << "," << font_px << "' tc rgb '" << color << "' noenhanced\n";
         return label.str();
     };
-    std::string legend = "line: the front, what nothing beats in both";
-    if (!axes.hollow.empty()) legend += "; " + axes.hollow;
-    if (!axes.others.empty()) legend += "; " + axes.others;
+    std::string legend;
+    for (const std::string& text :
+         {std::string(axes.x_is_cost ? "line: the front, what nothing beats in both" : ""), axes.hollow,
+          axes.others})
+        if (!text.empty()) legend += (legend.empty() ? "" : "; ") + text;
     std::ostringstream script;
     script << "set encoding utf8\nset terminal svg size " << width << "," << height
            << " dynamic enhanced background rgb '" << theme.background

@@ -28,6 +28,7 @@ struct Axes {
     double floor = 0;   // the bottom of a logarithmic axis, > 0 there
     // The dial is what the scene asks for and not for us to choose: a method is judged by its worst.
     bool dial_is_given = false;
+    bool x_is_cost = true;   // false: no method is cheaper than another, and there is no front
     bool log_x = false;      // from the power of ten below the cheapest
     std::string others = {}; // what points are that do not compete
     std::string hollow = {}; // what hollow shapes are

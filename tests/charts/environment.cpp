@@ -187,7 +187,7 @@ void drawEnvironmentCharts(const fs::path& programs, const fs::path& costs_csv, 
                .y = "RMS error, % of the mean truth",
                .log_y = true,
                .floor = 0.3,
-               .dial_is_given = true},
+               .x_is_cost = false},
               by_roughness);
 
     Table costs_table{{"method", "bytes", "cost cu", "RMS %", "bias %", "note"}, {}};

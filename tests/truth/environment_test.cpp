@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <iterator>
 #include <numbers>
+#include <optional>
 
 namespace gll::test {
 namespace {
@@ -183,6 +184,61 @@ TEST(EnvironmentLight, ofTheSunIsFreeOfTheSplitSumWhereItIsALight) {
     }
 }
 
+// Ball by ball and pixel by pixel, normals and all: the highlight of a small sun in a black sky.
+TEST(EnvironmentLight, ofASunAloneIsWhatADoubleSays) {
+    using namespace environment_light;
+    const test::TemporaryFolder folder;
+    Image image{.width = 1024, .height = 512, .channels = 3, .pixels = {}};
+    std::vector<float> values;
+    for (const glm::vec3& pixel : smallSun().pixels)
+        for (int c = 0; c < 3; ++c)
+            values.push_back(pixel.g > 1 ? 10000.0F : 0.0F);
+    image.pixels = std::move(values);
+    saveImage(folder / "sun.exr", image);
+    Warnings warnings;
+    const std::optional<Sun> sun =
+        withoutSun(radianceMap(loadImage(folder / "sun.exr"), folder / "sun.exr", warnings)).sun;
+    ASSERT_TRUE(sun);
+    charts::Frames frames(rung, {"--environment", (folder / "sun.exr").string()});
+    frames.ask(as_light, size, "hdr");
+    frames.run();
+    const measure::ColorImage frame = frames.read(0);
+    for (std::size_t ball = 1; ball < ball_count; ++ball) {
+        const double roughness = ball_roughnesses[ball];
+        const double alpha_squared = std::min(std::pow(roughness, 4) + 0.5 * sun->mean_squared_angle, 1.0);
+        const double share = std::min(5 * roughness * (1.7 - 0.7 * roughness), 1.0);
+        truth::EnvironmentError error;
+        for (const truth::BallPixel& pixel : truth::ballPixels(ball, size, 1)) {
+            const double lit = std::max(glm::dot(pixel.normal, sun->direction), 0.0);
+            const double seen = glm::dot(pixel.normal, pixel.to_camera);
+            const double along = glm::dot(pixel.normal, glm::normalize(sun->direction + pixel.to_camera));
+            const double spread = along * along * (alpha_squared - 1) + 1;
+            const double masked = lit * std::sqrt(alpha_squared + seen * seen * (1 - alpha_squared)) +
+                                  seen * std::sqrt(alpha_squared + lit * lit * (1 - alpha_squared));
+            const double light = alpha_squared / (spread * spread) * 0.5 / masked * lit * share;
+            // what level 0 still has of the sun itself is not asked
+            if (ball < 3 && along > std::cos(0.01)) continue;
+            error.add(frame, pixel, light * sun->irradiance);
+        }
+        std::printf("roughness %.2f: the sun's light is off by %.2f %%\n", roughness, error.rmsPercent());
+        EXPECT_LT(error.rmsPercent(), 1) << roughness;
+    }
+}
+
+// Nothing in a sky without a sun wants samples that overlap.
+TEST(EnvironmentLight, ofASkyWithoutASunIsTheSameWhetherOneIsTakenOutOrNot) {
+    const UnderTheSky sky(false);
+    const Set radiance = with(as_light, {{"view", "radiance"}});
+    charts::Frames frames(rung, sky.arguments);
+    frames.ask(radiance, size, "hdr");
+    frames.ask(with(radiance, {{"environment_sun", "off"}}), size, "hdr");
+    frames.run();
+    const measure::ColorImage on = frames.read(0);
+    const measure::ColorImage off = frames.read(1);
+    for (std::size_t i = 0; i < on.pixels.size(); ++i)
+        ASSERT_EQ(on.pixels[i], off.pixels[i]);
+}
+
 TEST(EnvironmentLight, onMattSurfacesIsExactOnceTheSunIsALight) {
     const UnderTheSky sky(true);
     const char* const methods[] = {"raw", "mip", "sh9", "sh9_sun"};
@@ -212,7 +268,8 @@ TEST(EnvironmentLight, onMattSurfacesIsExactOnceTheSunIsALight) {
 // twice the 0.3 s that are wanted, since a machine may be busy.
 TEST(EnvironmentLight, isReadyInAThirdOfASecond) {
     using namespace environment_light;
-    const RadianceMap map = radianceMap(loadImage(sky_file), sky_file);
+    Warnings warnings;
+    const RadianceMap map = radianceMap(loadImage(sky_file), sky_file, warnings);
     for (const bool octahedral : {false, true}) {
         const std::clock_t start = std::clock();
         const auto lap = [&, last = start](const char* what) mutable {

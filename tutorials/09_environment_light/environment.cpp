@@ -105,7 +105,7 @@ Environment::Environment(const std::filesystem::path& path, Warnings& warnings)
     : Environment([&] {
           const Image image = loadImage(path);
           warnings.add(image.warnings);
-          return radianceMap(image, path);
+          return radianceMap(image, path, warnings);
       }()) {}
 
 const std::vector<RadianceMap>& Environment::chain() {
@@ -136,7 +136,7 @@ const Texture& Environment::prefilteredMap(const EnvironmentOptions& options) {
     const std::vector<RadianceMap>& source = by_itself ? sky_chain_ : chain();
     const Prefilter prefilter{.samples = options.prefilter_samples,
                               .filtered = options.prefilter_filtered,
-                              .has_sun = !options.sun};
+                              .has_sun = !options.sun && parted().sun};
     // Level 0 is the map itself, for mirrors. A small one is drawn larger, since texels of the last level
     // must still be small beside the widest lobe; a large one smaller, since lobes would not show it.
     const bool octahedral = options.layout == "octahedral";

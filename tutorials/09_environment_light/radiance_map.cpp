@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <sstream>
 #include <stdexcept>
 
 namespace gll::environment_light {
@@ -125,7 +126,7 @@ struct Frame {
 
 } // namespace
 
-RadianceMap radianceMap(const Image& image, const std::filesystem::path& path) {
+RadianceMap radianceMap(const Image& image, const std::filesystem::path& path, Warnings& warnings) {
     if (!std::holds_alternative<std::vector<float>>(image.pixels))
         throw std::runtime_error(path.string() + ": an environment must be .hdr or .exr, in linear light");
     if (image.cube_map)
@@ -135,6 +136,8 @@ RadianceMap radianceMap(const Image& image, const std::filesystem::path& path) {
     const auto channels = static_cast<std::size_t>(image.channels);
     RadianceMap map{.width = image.width, .height = image.height, .pixels = {}};
     map.pixels.reserve(from.size() / channels);
+    std::size_t cut = 0;
+    float brightest = 0;
     for (std::size_t i = 0; i < from.size(); i += channels) {
         glm::vec3 pixel;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -142,8 +145,16 @@ RadianceMap radianceMap(const Image& image, const std::filesystem::path& path) {
             if (std::isnan(value))
                 throw std::runtime_error(path.string() + ": holds a value that is not a number");
             pixel[static_cast<int>(c)] = std::clamp(value, 0.0F, largest_half_float);
+            brightest = std::max(brightest, value);
+            cut += value > largest_half_float ? 1 : 0;
         }
         map.pixels.push_back(pixel);
+    }
+    if (cut > 0) {
+        std::ostringstream line;
+        line << path.string() << ": " << cut << " values are cut off at " << largest_half_float
+             << ", the largest half float, of up to " << brightest;
+        warnings.add({line.str()});
     }
     return map;
 }
@@ -266,8 +277,8 @@ Irradiance windowed(const Irradiance& coefficients) {
 }
 
 // excerpt: sun
-// Pixels within 3 degrees of the brightest one, as far as they are brighter than the mean of the ring from 3
-// to 6 degrees.
+// Pixels within 3 degrees of the middle of the brightest light, as far as they are brighter than the mean of
+// the ring from 3 to 6 degrees.
 SunAndSky withoutSun(const RadianceMap& map) {
     const double near = std::cos(3 * pi / 180);
     const double far = std::cos(6 * pi / 180);
@@ -275,27 +286,39 @@ SunAndSky withoutSun(const RadianceMap& map) {
     glm::dvec3 mean(0);
     double brightest = -1;
     glm::dvec3 middle(0, 1, 0);
-    for (int row = 0; row < map.height; ++row)
+    for (int row = 0; row < map.height; ++row) {
+        const double share = solidAngle(map, row) / (4 * pi);
         for (int column = 0; column < map.width; ++column) {
             const glm::dvec3 color(map.at(column, row));
-            mean += color * (solidAngle(map, row) / (4 * pi));
+            mean += color * share;
             if (luminance(color) <= brightest) continue;
             brightest = luminance(color);
             middle = directionOf((column + 0.5) / map.width, (row + 0.5) / map.height);
         }
+    }
     if (brightest <= 10 * luminance(mean)) return result;
     const auto forEach = [&](const auto& visit) {
         for (int row = 0; row < map.height; ++row) {
             if (std::abs(std::acos(std::clamp(middle.y, -1.0, 1.0)) - (row + 0.5) / map.height * pi) > 0.11)
                 continue; // more than 6 degrees up or down
+            const double solid_angle = solidAngle(map, row);
             for (int column = 0; column < map.width; ++column) {
                 const glm::dvec3 direction =
                     directionOf((column + 0.5) / map.width, (row + 0.5) / map.height);
                 visit(countOf(map.width, row) + static_cast<std::size_t>(column), direction,
-                      glm::dot(direction, middle), solidAngle(map, row));
+                      glm::dot(direction, middle), solid_angle);
             }
         }
     };
+    // The first of equally bright pixels is at a light's rim. From there what is within 3 degrees leads
+    // inwards.
+    for (int step = 0; step < 3; ++step) {
+        glm::dvec3 towards(0);
+        forEach([&](std::size_t i, const glm::dvec3& direction, double cosine, double solid_angle) {
+            if (cosine > near) towards += solid_angle * luminance(glm::dvec3(map.pixels[i])) * direction;
+        });
+        middle = glm::normalize(towards);
+    }
     glm::dvec3 ring(0);
     double ring_solid_angle = 0;
     forEach([&](std::size_t i, const glm::dvec3&, double cosine, double solid_angle) {
@@ -316,11 +339,12 @@ SunAndSky withoutSun(const RadianceMap& map) {
         result.sky.pixels[i] = glm::vec3(glm::dvec3(map.pixels[i]) - above);
         light += solid_angle * above;
         towards += solid_angle * luminance(above) * direction;
-        spread += solid_angle * luminance(above) * 2 * (1 - cosine); // squared angle from the brightest pixel
+        // squared angle from the middle, and what a disc as large as the pixel has about its own
+        spread += solid_angle * luminance(above) * (2 * (1 - cosine) + solid_angle / (2 * pi));
     });
     if (luminance(light) == 0) return result;
     sun.direction = glm::normalize(towards);
-    // about the middle: less what that is off the brightest pixel
+    // about its own direction: less what that is off the middle
     sun.mean_squared_angle =
         std::max(spread / luminance(light) - 2 * (1 - glm::dot(sun.direction, middle)), 0.0);
     sun.irradiance = light / pi;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "io/image.hpp"
+#include "rung/warnings.hpp"
 
 #include <array>
 #include <filesystem>
@@ -27,9 +28,9 @@ struct RadianceMap {
 };
 
 // From a file's pixels: grey is taken for all three channels, what is below 0 is 0, and nothing is above the
-// largest half float. Throws std::runtime_error naming the path for 8-bit pixels, cube maps, and values that
-// are not a number.
-RadianceMap radianceMap(const Image& image, const std::filesystem::path& path);
+// largest half float, of which a warning says how much light that takes. Throws std::runtime_error naming the
+// path for 8-bit pixels, cube maps, and values that are not a number.
+RadianceMap radianceMap(const Image& image, const std::filesystem::path& path, Warnings& warnings);
 
 glm::dvec3 directionOf(double u, double v);
 double solidAngle(const RadianceMap& map, int row); // of a pixel there, steradians

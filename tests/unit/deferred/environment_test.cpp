@@ -9,6 +9,8 @@
 #include <limits>
 #include <numbers>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace gll::test {
 namespace {
@@ -99,10 +101,17 @@ TEST(Environment, prefilteredKeepsOneColorAndHasNoSeam) {
 TEST(Environment, takesWhatIsNegativeOrTooBrightAndRefusesWhatIsNoNumber) {
     Image image{.width = 2, .height = 1, .channels = 3, .pixels = {}};
     image.pixels = std::vector<float>{-1, 2, std::numeric_limits<float>::infinity(), 1, 1, 1};
-    EXPECT_EQ(radianceMap(image, "sky.exr").at(0, 0), glm::vec3(0, 2, 65504));
+    Warnings warnings;
+    EXPECT_EQ(radianceMap(image, "sky.exr", warnings).at(0, 0), glm::vec3(0, 2, 65504));
+    EXPECT_EQ(warnings.take(),
+              std::vector<std::string>{
+                  "sky.exr: 1 values are cut off at 65504, the largest half float, of up to inf"});
+    image.pixels = std::vector<float>{-1, 2, 65504, 1, 1, 1};
+    radianceMap(image, "sky.exr", warnings);
+    EXPECT_TRUE(warnings.take().empty());
     image.pixels = std::vector<float>{1, std::nanf(""), 1, 1, 1, 1};
     try {
-        radianceMap(image, "sky.exr");
+        radianceMap(image, "sky.exr", warnings);
         FAIL() << "not refused";
     } catch (const std::runtime_error& error) {
         EXPECT_STREQ(error.what(), "sky.exr: holds a value that is not a number");
@@ -142,6 +151,32 @@ TEST(Environment, ofASunIsPartedWithNothingLostAndGivenBackAsALight) {
                     1, 2e-3);
     EXPECT_FALSE(withoutSun(sky(512, 256, daylight)).sun) << "a glow is no sun";
     EXPECT_FALSE(withoutSun(sky(3, 2, [](glm::dvec3 d) { return glm::dvec3(d.x > 0.9 ? 100 : 0); })).sun);
+}
+
+TEST(Environment, ofASunOfOnePixelLeavesItThatPixelsSize) {
+    RadianceMap map = sky(512, 256, [](glm::dvec3) { return glm::dvec3(0.3); });
+    map.pixels[100 * 512 + 300] = glm::vec3(5000);
+    const SunAndSky parted = withoutSun(map);
+    ASSERT_TRUE(parted.sun);
+    EXPECT_NEAR(parted.sun->mean_squared_angle / (solidAngle(map, 100) / (2 * pi)), 1, 1e-6);
+}
+
+// As a picture has it whose sun is cut off at its largest number, and blurred by haze: equally bright all
+// over.
+TEST(Environment, ofAFlatDiscOf5DegreesIsPartedWhole) {
+    for (const glm::dvec3 toward : {glm::dvec3(1, 2, -1), glm::dvec3(-1, 0.1, 0.01), glm::dvec3(0.1, 1, 0)}) {
+        const glm::dvec3 to_sun = glm::normalize(toward);
+        const RadianceMap map = sky(512, 256, [&](glm::dvec3 d) {
+            return glm::dvec3(0.3, 0.4, 0.5) +
+                   (glm::dot(d, to_sun) > std::cos(2.5 * pi / 180) ? 65000.0 : 0.0);
+        });
+        const SunAndSky parted = withoutSun(map);
+        ASSERT_TRUE(parted.sun);
+        EXPECT_GT(glm::dot(parted.sun->direction, to_sun), std::cos(0.004)) << "a third of a pixel";
+        EXPECT_NEAR(std::sqrt(2 * parted.sun->mean_squared_angle), 2.5 * pi / 180, 0.002);
+        for (const glm::vec3& pixel : parted.sky.pixels)
+            ASSERT_NEAR(pixel.g, 0.4F, 1e-2F);
+    }
 }
 
 TEST(Environment, windowedSeesNoNegativeLightAndIsLeftAloneWhereThereIsNone) {

@@ -250,6 +250,131 @@ TEST_F(DeferredShader, normalsStandWhereTextureCoordinatesHaveNoArea) {
     }
 }
 
+// 09 with a table, the sun as a light and energy given back.
+const Defines environment_defines = {{"ENVIRONMENT_DIFFUSE_RAW", "0"},
+                                     {"ENVIRONMENT_DIFFUSE_MIP", "1"},
+                                     {"ENVIRONMENT_DIFFUSE_SH9_SUN", "2"},
+                                     {"ENVIRONMENT_DIFFUSE", "0"},
+                                     {"ENVIRONMENT_SPECULAR_RAW", "0"},
+                                     {"ENVIRONMENT_SPECULAR_PREFILTERED", "1"},
+                                     {"ENVIRONMENT_SPECULAR", "1"},
+                                     {"ENVIRONMENT_SUN", "1"},
+                                     {"ENVIRONMENT_LAYOUT_EQUIRECTANGULAR", "0"},
+                                     {"ENVIRONMENT_LAYOUT_OCTAHEDRAL", "1"},
+                                     {"ENVIRONMENT_LAYOUT", "0"},
+                                     {"ENVIRONMENT_BRDF_ORIGINAL", "0"},
+                                     {"ENVIRONMENT_BRDF_TABLE", "1"},
+                                     {"ENVIRONMENT_BRDF_KARIS", "2"},
+                                     {"ENVIRONMENT_BRDF_LAZAROV", "3"},
+                                     {"ENVIRONMENT_BRDF", "1"},
+                                     {"ENVIRONMENT_ENERGY_NONE", "0"},
+                                     {"ENVIRONMENT_ENERGY_FDEZ_AGUERA", "1"},
+                                     {"ENVIRONMENT_ENERGY_TURQUIN", "2"},
+                                     {"ENVIRONMENT_ENERGY", "1"}};
+
+// Where a lobe is sharp, n.h^2 (a^2 - 1) + 1 is a small difference of numbers near 1.
+TEST_F(DeferredShader, theSunsHighlightIsWhatADoubleSays) {
+    const glm::dvec3 to_sun = glm::normalize(glm::dvec3(0.4, 0.8, 0.5));
+    const glm::dvec3 to_camera = glm::normalize(glm::dvec3(-0.3, 0.2, 0.9));
+    const glm::dvec3 halfway = glm::normalize(to_sun + to_camera);
+    const glm::dvec3 across = glm::normalize(glm::cross(halfway, glm::dvec3(0, 1, 0)));
+    constexpr double spread = 4e-6; // half of the mean squared angle of a sun a quarter of a degree wide
+    constexpr int count = 64;
+    for (const double roughness : {0.05, 0.1, 0.3, 1.0}) {
+        const double alpha_squared = std::pow(roughness, 4) + spread;
+        std::vector<glm::vec3> normals;
+        std::vector<double> expected;
+        for (int i = 0; i < count; ++i) {
+            const double angle_rad = 3.0 * i / count * std::sqrt(std::min(alpha_squared, 0.01));
+            const glm::dvec3 normal =
+                glm::vec3(std::cos(angle_rad) * halfway + std::sin(angle_rad) * across); // in floats
+            normals.emplace_back(normal);
+            const double length = glm::length(normal);
+            const double lit = glm::dot(normal, to_sun) / length;
+            const double seen = glm::dot(normal, to_camera) / length;
+            const double along = glm::dot(normal, halfway) / length;
+            const double wide = 1 - along * along + alpha_squared * along * along;
+            const double masked = lit * std::sqrt(alpha_squared + seen * seen * (1 - alpha_squared)) +
+                                  seen * std::sqrt(alpha_squared + lit * lit * (1 - alpha_squared));
+            const double share = std::min(5 * roughness * (1.7 - 0.7 * roughness), 1.0);
+            expected.push_back(alpha_squared / (wide * wide) * 0.5 / masked * lit * share);
+        }
+        const Framebuffer target({{.name = "light", .format = Format::r32f}}, {count, 1});
+        draw(target, {.program = program(R"(
+#include "09_environment_light/environment.glsl"
+uniform vec3 normals[64];
+uniform vec3 to_camera;
+uniform float roughness;
+out float light;
+void main() { light = sunReflected(normals[int(gl_FragCoord.x)], to_camera, vec3(1.0), roughness).r; }
+)",
+                                         environment_defines),
+                      .uniforms = {{"normals", normals},
+                                   {"to_camera", glm::vec3(to_camera)},
+                                   {"roughness", static_cast<float>(roughness)},
+                                   {"to_brightest", glm::vec3(to_sun)},
+                                   {"brightest_irradiance", glm::vec3(1)},
+                                   {"brightest_spread", static_cast<float>(spread)},
+                                   {"prefiltered_levels", 5.0F}}});
+        for (std::size_t i = 0; const float light : valuesOf(target.color())) {
+            ASSERT_NEAR(light / expected[i], 1, 0.002) << roughness << ", normal " << i;
+            ++i;
+        }
+    }
+}
+
+TEST_F(DeferredShader, theSunReflectsNothingWhereItIsBehindOrOpposite) {
+    const Framebuffer target({{.name = "light", .format = Format::rgba32f}}, {1, 1});
+    for (const glm::vec3 normal : {glm::vec3(0, 0, 1), glm::vec3(0, 0, -1), glm::vec3(1, 0, 0)}) {
+        draw(target, {.program = program(R"(
+#include "09_environment_light/environment.glsl"
+uniform vec3 normal;
+uniform vec3 to_camera;
+out vec4 light;
+void main() { light = vec4(sunReflected(normal, to_camera, vec3(1.0), 0.5), 1.0); }
+)",
+                                         environment_defines),
+                      .uniforms = {{"normal", normal},
+                                   {"to_camera", glm::vec3(0, 0, -1)},
+                                   {"to_brightest", glm::vec3(0, 0, 1)},
+                                   {"brightest_irradiance", glm::vec3(1)},
+                                   {"brightest_spread", 1e-5F},
+                                   {"prefiltered_levels", 5.0F}}});
+        EXPECT_EQ(pixelOf(target.color(), 0, 0), glm::vec4(0, 0, 0, 1)) << normal.z;
+    }
+}
+
+// A table in half floats may say 1.0005, and where the mirrored sky is black nothing else hides that.
+TEST_F(DeferredShader, noLightIsNegativeWhereATableSaysALittleMoreThanOne) {
+    const std::vector<float> more_than_one = {0.75F, 0.2505F};
+    const Texture table({.size = {1, 1}, .format = Format::rg16f}, std::span<const float>(more_than_one));
+    const std::vector<float> dark(3, 0.0F);
+    const Texture black({.size = {1, 1}, .format = Format::rgb16f}, std::span<const float>(dark));
+    const Framebuffer target({{.name = "light", .format = Format::r32f}}, {1, 1});
+    for (const char* energy : {"0", "1", "2"}) {
+        Defines defines = environment_defines;
+        for (auto& [name, value] : defines)
+            if (name == "ENVIRONMENT_ENERGY") value = energy;
+        draw(target, {.program = program(R"(
+#include "09_environment_light/environment.glsl"
+out float light;
+void main() {
+    vec3 left;
+    vec3 up = vec3(0.0, 1.0, 0.0);
+    light = environmentReflected(up, up, vec3(1.0), vec3(1.0), 0.5, left).r;
+}
+)",
+                                         defines),
+                      .part = {.inputs = {{"prefiltered_map", black}, {"brdf_table", table}},
+                               .uniforms = {{"brdf_table_size", 1.0F},
+                                            {"to_brightest", glm::vec3(-1, 0, 0)},
+                                            {"brightest_irradiance", glm::vec3(0)},
+                                            {"brightest_spread", 1e-5F},
+                                            {"prefiltered_levels", 0.0F}}}});
+        EXPECT_GE(pixelOf(target.color(), 0, 0).r, 0.0F) << energy;
+    }
+}
+
 TEST_F(DeferredShader, theEnvironmentHasNoSeam) {
     const glm::ivec2 size(64, 32);
     const std::vector<float> green_level(static_cast<std::size_t>(size.x * size.y), 0.0F);
