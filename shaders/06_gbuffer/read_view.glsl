@@ -40,13 +40,18 @@ vec3 viewNormalFromDepth(vec2 uv, vec3 view_position) {
     vec3 right = viewPositionAt(uv + vec2(texel.x, 0.0)) - view_position;
     vec3 below = view_position - viewPositionAt(uv - vec2(0.0, texel.y));
     vec3 above = viewPositionAt(uv + vec2(0.0, texel.y)) - view_position;
-    return normalOf(abs(left.z) < abs(right.z) ? left : right, abs(below.z) < abs(above.z) ? below : above);
+    // nothing is known beyond the screen's border
+    bool by_left = uv.x > 1.0 - texel.x || (uv.x > texel.x && abs(left.z) < abs(right.z));
+    bool by_below = uv.y > 1.0 - texel.y || (uv.y > texel.y && abs(below.z) < abs(above.z));
+    return normalOf(by_left ? left : right, by_below ? below : above);
 }
 
 // The same where the G-buffer stores it.
 vec3 viewGeometricNormalAt(vec2 uv, vec3 view_position) {
 #if STORES_GEOMETRIC
-    return mat3(view_from_world) * geometricNormalAt(uv, view_position);
+    vec3 normal = mat3(view_from_world) * geometricNormalAt(uv, view_position);
+    // at the rim of a triangle, derivatives may have been taken from beyond its plane's horizon
+    return dot(normal, view_position) > 0.0 ? -normal : normal;
 #else
     return viewNormalFromDepth(uv, view_position);
 #endif

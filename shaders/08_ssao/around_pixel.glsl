@@ -4,7 +4,10 @@
 const float max_uv_radius = 0.4;
 
 // The radius on the screen, in uv.
-vec2 uvRadiusAt(float view_z) { return min(radius * half_uv_from_view / -view_z, max_uv_radius); }
+vec2 uvRadiusAt(float view_z) {
+    vec2 uv_radius = radius * half_uv_from_view / -view_z;
+    return uv_radius * min(max_uv_radius / max(uv_radius.x, uv_radius.y), 1.0); // still a circle in the scene
+}
 
 // Where the middle of the pixel is that uv lies in: the position that depth gives for another place would lie beside
 // the surface.

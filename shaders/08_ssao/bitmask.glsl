@@ -2,9 +2,9 @@
 
 uniform float thickness; // world units
 
-// Therrien et al. 2023, "Screen Space Indirect Lighting with Visibility Bitmask": the half circle of a slice is cut into
-// 32 sectors, one bit each, and each point that is seen takes those between its front and its back. So there is light
-// under a table and beside a pole, where one horizon to either side would shut out all below it.
+// Therrien et al. 2023, "Screen Space Indirect Lighting with Visibility Bitmask": the half circle of a slice is cut
+// into 32 sectors, one bit each, and each point that is seen takes those between its front and its back. So there is
+// light under a table and beside a pole, where one horizon to either side would shut out all below it.
 int countOfBits(uint bits) {
     bits -= (bits >> 1) & 0x55555555u;
     bits = (bits & 0x33333333u) + ((bits >> 2) & 0x33333333u);
@@ -14,9 +14,9 @@ int countOfBits(uint bits) {
 // Where a direction lies between the two ends of the hemisphere, [0, 1]; at the end on its side, 1 or -1, where it is
 // below the plane.
 float shareOf(vec3 to_point, vec3 view_normal, Slice slice, float side) {
-    float elevation = dot(to_point, view_normal);
-    if (elevation > 0.0) side = dot(to_point, slice.tangent) < 0.0 ? -1.0 : 1.0;
-    vec2 direction = atElevation(elevation * inversesqrt(max(dot(to_point, to_point), 1e-12)), side, slice);
+    float sine = dot(to_point, view_normal) * inversesqrt(max(dot(to_point, to_point), 1e-12));
+    if (leansOver(to_point, sine, side * slice.tangent, slice)) side = -side;
+    vec2 direction = atElevation(sine, side, slice);
 #if SSAO_SECTORS == SSAO_SECTORS_UNIFORM
     return 0.5 + side * fastAcos(direction.x) / 3.14159265;
 #else
@@ -37,7 +37,7 @@ uint sectorsBetween(float from, float to) {
     int first = int(floor(from * 32.0 + 0.5));
     int end = int(floor(to * 32.0 + 0.5));
 #else
-    int first = int(floor(from * 32.0));
+    int first = max(int(floor(from * 32.0)), 0);
     int end = int(ceil(to * 32.0));
 #endif
     int count = min(end, 32) - first;
@@ -62,8 +62,9 @@ uint occludedSectors(vec3 view_position, vec3 view_normal, vec3 to_eye, Slice sl
 // end excerpt
 
 float visibilityFrom(vec2 uv, vec3 view_position, vec3 view_normal, vec2 noise) {
-    view_position += bias * view_normal;
     vec3 to_eye = normalize(-view_position);
+    view_normal = turnedTo(to_eye, view_normal);
+    view_position += bias * view_normal;
     vec2 uv_radius = uvRadiusAt(view_position.z);
     float sum = 0.0;
     float unoccluded = 0.0;
@@ -82,5 +83,6 @@ float visibilityFrom(vec2 uv, vec3 view_position, vec3 view_normal, vec2 noise) 
         sum += light * (1.0 - float(countOfBits(sectors)) / 32.0);
         unoccluded += light;
     }
+    weight = unoccluded;
     return sum / unoccluded;
 }

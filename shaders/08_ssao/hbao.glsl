@@ -1,8 +1,8 @@
 // Occlusion by horizons above the surface's plane.
 
 // excerpt: hbao
-// Bavoil et al. 2008, "Image-Space Horizon-Based Ambient Occlusion": whatever rises above the highest point so far takes
-// that much of the sky, less the farther away it is. The elevation is that above the surface's own plane.
+// Bavoil et al. 2008, "Image-Space Horizon-Based Ambient Occlusion": whatever rises above the highest point so far
+// takes that much of the sky, less the farther away it is. The elevation is that above the surface's own plane.
 float occludedAlong(vec3 view_position, vec3 view_normal, vec2 uv, vec2 uv_step, float jitter) {
     float highest = 0.0; // sine of the elevation
     float occluded = 0.0;

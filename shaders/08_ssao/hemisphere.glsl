@@ -2,8 +2,7 @@
 
 // excerpt: hemisphere
 // After Chapman 2013, "SSAO Tutorial", as learnopengl.com has it: directions of the whole hemisphere, and lengths that
-// crowd near the pixel. Directions and lengths of n samples are spread by the sequence R2 and not drawn at random, which
-// leaves less noise.
+// crowd near the pixel. Directions are spread by the sequence R2 and not drawn at random, which leaves less noise.
 float visibilityFrom(vec2 uv, vec3 view_position, vec3 view_normal, vec2 noise) {
     vec3 across, along;
     frameAbout(view_normal, across, along);

@@ -15,8 +15,8 @@ float visibilityAt(vec2 uv, vec3 world_position) { return 1.0; }
 #elif SSAO_RESOLUTION == SSAO_RESOLUTION_FULL
 float visibilityAt(vec2 uv, vec3 world_position) { return textureLod(ssao_map, uv, 0.0).r; }
 #else
-// Every second pixel has its own; those between take the mean of two neighbours, across or along a diagonal, or of one
-// where the other shows another surface.
+// Every second pixel has its own; those between take the mean of two neighbours, across, up or along a diagonal, or only
+// one where the other shows another surface.
 float visibilityAt(vec2 uv, vec3 world_position) {
     float view_z = dot(view_z_from_world, vec4(world_position, 1.0));
     ivec2 pixel = ivec2(gl_FragCoord.xy);

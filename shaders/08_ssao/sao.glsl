@@ -1,10 +1,10 @@
 // Occlusion by what rises above the surface's plane on a disk round the pixel.
 
 // excerpt: sao
-// McGuire et al. 2012, "Scalable Ambient Obscurance", after the Alchemy method of 2011: each point that is seen near the
-// pixel occludes by the sine of its elevation over its distance, fading to nothing at the radius.
+// McGuire et al. 2012, "Scalable Ambient Obscurance", after the Alchemy method of 2011: each point that is seen near
+// the pixel occludes by the sine of its elevation over its distance, fading to nothing at the radius.
 float visibilityFrom(vec2 uv, vec3 view_position, vec3 view_normal, vec2 noise) {
-    const float golden_angle_rad = 2.3998277;
+    const float golden_angle_rad = 2.3999632;
     const mat2 golden_turn = mat2(cos(golden_angle_rad), sin(golden_angle_rad), //
                                   -sin(golden_angle_rad), cos(golden_angle_rad));
     vec2 uv_radius = uvRadiusAt(view_position.z);

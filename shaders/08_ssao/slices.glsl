@@ -10,7 +10,7 @@ float alongSlice(int i, float jitter) {
 #endif
 }
 
-// Of a cosine in [0, 1], good to 0.0007 rad (Abramowitz and Stegun 1964, 4.4.45), at a quarter of what acos() costs.
+// Of a cosine in [0, 1], good to 0.00007 rad (Abramowitz and Stegun 1964, 4.4.45), at a quarter of what acos() costs.
 float fastAcos(float x) {
     return sqrt(max(1.0 - x, 0.0)) * (1.5707288 + x * (-0.2121144 + x * (0.0742610 - x * 0.0187293)));
 }
@@ -19,9 +19,15 @@ float fastAcos(float x) {
 struct Slice {
     vec3 tangent;          // in the slice, perpendicular to the normal's projection, towards direction
     float in_slice_length; // of the normal's projection into the slice
+    float eye_sine;        // of the view direction's elevation above the surface's plane
     float normal_rad;      // from the view direction to that projection, positive towards direction
     float sine, cosine;    // of it
 };
+
+// A normal map's normal may face away from the eye, where no surface that is seen does: turned until it does not.
+vec3 turnedTo(vec3 to_eye, vec3 view_normal) {
+    return normalize(view_normal + to_eye * max(0.01 - dot(view_normal, to_eye), 0.0));
+}
 
 Slice sliceOf(vec2 direction, vec3 to_eye, vec3 view_normal) {
     Slice slice;
@@ -29,17 +35,24 @@ Slice sliceOf(vec2 direction, vec3 to_eye, vec3 view_normal) {
     vec3 in_slice = view_normal - axis * dot(view_normal, axis);
     slice.in_slice_length = max(length(in_slice), 1e-4);
     slice.tangent = cross(in_slice, axis);
+    slice.eye_sine = dot(in_slice, to_eye);
     slice.sine = clamp(dot(in_slice, cross(to_eye, axis)) / slice.in_slice_length, -1.0, 1.0);
-    slice.cosine = sqrt(1.0 - slice.sine * slice.sine); // what is seen does not face away
+    slice.cosine = sqrt(1.0 - slice.sine * slice.sine); // the normal does not face away: see turnedTo()
     slice.normal_rad = slice.sine < 0.0 ? -fastAcos(slice.cosine) : fastAcos(slice.cosine);
     return slice;
 }
 
 // excerpt: arc
 // A direction in a slice by its angle from the normal's projection: cosine, [0, 1], and sine, positive along the slice.
-// Directions come from how far they rise above the surface's plane, not from where in the slice they lie: the pixel that
-// is read lies beside the slice, by up to half a pixel, and where a surface is seen at a grazing angle that is far before
-// or behind the place that was asked for, but never above its plane. side: 1 along the slice, -1 against it.
+// Directions come from how far they rise above the surface's plane, not from where in the slice they lie: the pixel
+// that is read lies beside the slice, by up to half a pixel. Where a surface is seen at a grazing angle that is far in
+// front of or behind the place that was asked for, but never above its plane. side: 1 along the slice, -1 against it.
+// What leans over the normal (leansOver) is on the other side.
+bool leansOver(vec3 to_point, float sine_of_elevation, vec3 tangent, Slice slice) {
+    // no lower than the view direction, as it is beyond that on the screen
+    return sine_of_elevation > slice.eye_sine && dot(to_point, tangent) < 0.0;
+}
+
 vec2 atElevation(float sine_of_elevation, float side, Slice slice) {
     float cosine = clamp(sine_of_elevation / slice.in_slice_length, 0.0, 1.0);
     return vec2(cosine, side * sqrt(1.0 - cosine * cosine));

@@ -12,6 +12,9 @@ uniform float strength;         // factor on the occlusion, of some methods
 uniform float power;            // exponent on the visibility
 #endif
 
+// How much light this pixel's slices bring where nothing is in the way, by which a blur weighs it; 1 without slices.
+float weight = 1.0;
+
 #include "08_ssao/around_normal.glsl"
 #include "08_ssao/around_pixel.glsl"
 #include "08_ssao/slices.glsl"
@@ -31,8 +34,10 @@ uniform float power;            // exponent on the visibility
 #error
 #endif
 
-#if WITH_VIEW_Z
-out vec2 visibility_and_view_z; // for the passes that must tell surfaces apart: [0, 1], world units
+#if WITH_WEIGHT
+out vec3 visibility_view_z_weight; // for a blur: [0, 1], world units, [0, infinity)
+#elif WITH_VIEW_Z
+out vec2 visibility_and_view_z; // for a look-up that must tell surfaces apart
 #else
 out float visibility; // [0, 1]
 #endif
@@ -59,7 +64,9 @@ void main() {
 #if WITH_POWER
     visible = pow(visible, power);
 #endif
-#if WITH_VIEW_Z
+#if WITH_WEIGHT
+    visibility_view_z_weight = vec3(visible, view_position.z, weight);
+#elif WITH_VIEW_Z
     visibility_and_view_z = vec2(visible, view_position.z);
 #else
     visibility = visible;

@@ -114,13 +114,22 @@ vec3 litColor(Surface surface, float visibility) {
 #if POINTS
     light += pointLights(surface, to_camera);
 #endif
+#if OCCLUDED_DIRECT
     light *= mix(occluded_light, 1.0, visibility);
+#endif
+    vec3 untinted = vec3(0.0);
 #if ENVIRONMENT
     vec3 ambient = ambientLight(surface.world_normal);
     vec3 reflected = reflectedLight(surface, to_camera, ambient);
+#if ENVIRONMENT_BRDF == ENVIRONMENT_BRDF_ORIGINAL
+    // a reflection in the color of the surface, as of metal
     light += ambient * visibilityOfColor(visibility, surface.albedo) + reflected * visibility;
+#else
+    light += ambient * visibilityOfColor(visibility, surface.albedo);
+    untinted = reflected * visibility;
 #endif
-    return surface.albedo * light;
+#endif
+    return surface.albedo * light + untinted;
 }
 
 void main() {

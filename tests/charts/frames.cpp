@@ -14,8 +14,9 @@
 namespace gll::charts {
 
 std::size_t Frames::ask(const Set& set, glm::ivec2 size, const std::string& target,
-                        const nlohmann::json& inject, int frame) {
-    nlohmann::json line{{"set", set},
+                        const nlohmann::json& inject, int frame, const std::string& preset) {
+    nlohmann::json line{{"preset", preset},
+                        {"set", set},
                         {"size", std::to_string(size.x) + "x" + std::to_string(size.y)},
                         {"frame", frame},
                         {"target", target},

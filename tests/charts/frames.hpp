@@ -26,7 +26,8 @@ class Frames {
     // Asks for a frame; returns its number. target as --target has it, in full range; inject as --inject has
     // it, one or a list of them.
     std::size_t ask(const Set& set, glm::ivec2 size, const std::string& target,
-                    const nlohmann::json& inject = nullptr, int frame = 60);
+                    const nlohmann::json& inject = nullptr, int frame = 60,
+                    const std::string& preset = "original");
     void run();
     // Valid after run(). Throws where a value is not finite, naming it.
     measure::ColorImage read(std::size_t number) const;

@@ -1,5 +1,6 @@
 // charts: measures a family of methods and draws what it costs against how far off it is.
 #include "charts/bloom.hpp"
+#include "charts/deferred.hpp"
 #include "charts/environment.hpp"
 #include "charts/exposure.hpp"
 #include "charts/formats.hpp"
@@ -28,6 +29,7 @@ struct Family {
 const std::map<std::string, Family> families = {
     {"bloom", {gll::charts::measureBloomCosts, gll::charts::drawBloomCharts}},
     {"environment", {gll::charts::measureEnvironmentCosts, gll::charts::drawEnvironmentCharts}},
+    {"deferred", {gll::charts::measureDeferredCosts, gll::charts::drawDeferredCharts}},
     {"exposure", {gll::charts::measureExposureCosts, gll::charts::drawExposureCharts}},
     {"formats", {gll::charts::measureFormatCosts, gll::charts::drawFormatCharts}},
     {"gbuffer", {gll::charts::measureGbufferCosts, gll::charts::drawGbufferCharts}},

@@ -26,7 +26,7 @@ constexpr int rays = 144;
 
 const Set shared = {{"ssao_normals", "geometric"},
                     {"ssao_noise", "interleaved"},
-                    {"ssao_blur", "plane"},
+                    {"ssao_blur", "separable"},
                     {"ssao_bias", "0.003"}};
 
 std::vector<OcclusionView> views() {
@@ -173,6 +173,30 @@ Set setFrom(const std::string& text) {
     return set;
 }
 
+Set recommended() {
+    return joined(shared, {{"ssao", "bitmask"}, {"ssao_slices", "1"}, {"ssao_samples", "12"}});
+}
+
+// What else might have been recommended.
+std::vector<std::string> variants() {
+    return {"",
+            "ssao_spacing=even",
+            "ssao_rounding=floor",
+            "ssao_rounding=ceil",
+            "ssao_sectors=uniform",
+            "ssao_slices=2",
+            "ssao_thickness=0.3",
+            "ssao_thickness=1.2",
+            "ssao_normals=depth",
+            "ssao_normals=mapped",
+            "ssao_noise=hash",
+            "ssao_noise=hilbert",
+            "ssao_blur=plane",
+            "ssao_blur=off",
+            "ssao=gtao ssao_falloff=0",
+            "ssao=gtao ssao_falloff=1"};
+}
+
 void requireAll(const fs::path& programs) {
     std::set<std::string> names = {"off"};
     for (const Method& method : methods())
@@ -224,6 +248,8 @@ void drawSsaoCharts(const fs::path& programs, const fs::path& costs_csv, const f
     for (const auto& row : measured.rows)
         frames.ask(setFrom(row[2]));
     frames.ask({{"ssao", "off"}});
+    for (const std::string& one : variants())
+        frames.ask(joined(recommended(), setFrom(one)));
     frames.run(rays);
 
     Table table{{"method", "taps", "RMSE cat", "RMSE room", "RMSE corner", "to the screen, cat",
@@ -254,13 +280,26 @@ void drawSsaoCharts(const fs::path& programs, const fs::path& costs_csv, const f
             tell(method.name, samples, i, decimals(cost, 2), mark);
             ++i;
         }
-    tell("off", "", i, "", "");
+    tell("off", "", i++, "", "");
     writeCsv(folder / "ssao.csv", table);
+
+    Table choices{{"recommended, but", "RMSE cat", "RMSE room", "RMSE corner", "noise"}, {}};
+    for (const std::string& one : variants()) {
+        choices.rows.push_back(
+            {one.empty() ? "nothing" : one, decimals(frames.errors(i, "cat").all.rmse(), 3),
+             decimals(frames.errors(i, "room").all.rmse(), 3),
+             decimals(frames.errors(i, "corner").all.rmse(), 3), decimals(frames.errors(i).noise.rmse(), 4)});
+        ++i;
+    }
+    writeCsv(folder / "ssao_choices.csv", choices);
 
     Table constants{{"method", "constants"}, {}};
     std::size_t row = 0;
     for (const Method& method : methods()) {
-        constants.rows.push_back({method.name, measured.rows[row][2]});
+        Set set = setFrom(measured.rows[row][2]);
+        set.erase("ssao_samples"); // the row's, and of XeGTAO's also slices
+        if (method.samples.size() > 1 && method.set.contains("ssao_power")) set.erase("ssao_slices");
+        constants.rows.push_back({method.name, textOf(set)});
         row += method.samples.size();
     }
     writeCsv(folder / "ssao_constants.csv", constants);

@@ -18,8 +18,8 @@ namespace {
 using charts::decimals;
 using charts::Set;
 
-constexpr const char* rung = "02_auto_exposure";
-constexpr glm::ivec2 size(64);              // a power of two: every pixel counts, in mipmaps too
+constexpr const char* meter_rung = "02_auto_exposure";
+constexpr glm::ivec2 meter_size(64);        // a power of two: every pixel counts, in mipmaps too
 const double black_stops = std::log2(1e-8); // of the rung's epsilon
 
 struct Reduction {
@@ -51,7 +51,7 @@ class Readings {
     void run() {
         const test::TemporaryFolder folder;
         const test::Result result = test::runToSuccess(
-            {folders.programs / rung,
+            {folders.programs / meter_rung,
              {"--context", "osmesa", "--json", "--batch", folder.write("batch.jsonl", lines_).string()}});
         std::istringstream stream(result.out);
         for (std::string line; std::getline(stream, line);)
@@ -73,7 +73,8 @@ class Readings {
 class ExposureStability : public testing::Test {
   protected:
     static void SetUpTestSuite() {
-        test::requireCovered(folders.programs / rung, "reduction", test::valuesOf(reductions, "reduction"));
+        test::requireCovered(folders.programs / meter_rung, "reduction",
+                             test::valuesOf(reductions, "reduction"));
     }
     static void TearDownTestSuite() { table.check(); }
 
@@ -82,7 +83,7 @@ class ExposureStability : public testing::Test {
         table.set(reduction.name, failure, number);
     }
 
-    static inline PageTable table{rung};
+    static inline PageTable table{meter_rung};
 };
 
 // log2 of the log-average of a pattern, by its definition.
@@ -126,10 +127,11 @@ TEST_F(ExposureStability, oneBadPixelOfTheSceneTakesTheExposureOnlyWithoutGuards
     Readings readings;
     const std::vector<const char*> values = {"nan", "inf", "-inf"};
     for (const Reduction& reduction : reductions) {
-        readings.ask(reduction.set, size);
+        readings.ask(reduction.set, meter_size);
         for (const char* guard : {"on", "off"})
             for (const char* value : values)
-                readings.ask(reduction.set + Set{{"guard", guard}}, size, "hdr:9,9:" + std::string(value));
+                readings.ask(reduction.set + Set{{"guard", guard}}, meter_size,
+                             "hdr:9,9:" + std::string(value));
     }
     readings.run();
     std::size_t next = 0;
@@ -166,11 +168,12 @@ TEST_F(ExposureStability, withGuardsABadValueInAnyPassLeavesAnExposure) {
     for (const Reduction& reduction : reductions)
         for (const char* adapt : {"on", "off"}) {
             const Set set = reduction.set + Set{{"adapt", adapt}};
-            const std::size_t clean = readings.ask(set, size);
+            const std::size_t clean = readings.ask(set, meter_size);
             for (const std::string& pass : reduction.passes)
                 for (const char* value : {"nan", "inf", "-inf"})
                     asked.push_back({reduction.name + " " + pass + " " + value + " adapt=" + adapt, pass,
-                                     clean, readings.ask(set, size, pass + ":0,0:" + std::string(value))});
+                                     clean,
+                                     readings.ask(set, meter_size, pass + ":0,0:" + std::string(value))});
         }
     readings.run();
     for (const Asked& one : asked) {
@@ -187,9 +190,9 @@ TEST_F(ExposureStability, withGuardsABadValueInAnyPassLeavesAnExposure) {
 }
 
 TEST_F(ExposureStability, withoutGuardsABadExposureTakesTheWholeFrameAndWithThemNone) {
-    charts::Frames frames(folders.programs / rung);
+    charts::Frames frames(folders.programs / meter_rung);
     const auto ask = [&](const char* guard) {
-        return frames.ask({{"overlay", "off"}, {"adapt", "off"}, {"guard", guard}}, size, "frame",
+        return frames.ask({{"overlay", "off"}, {"adapt", "off"}, {"guard", guard}}, meter_size, "frame",
                           "exposure:0,0:nan");
     };
     const std::size_t on = ask("on");

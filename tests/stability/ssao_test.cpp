@@ -57,7 +57,7 @@ class SsaoStability : public testing::Test {
                        ssao_size);
         const Set best = {{"ssao_normals", "geometric"},
                           {"ssao_noise", "interleaved"},
-                          {"ssao_blur", "plane"},
+                          {"ssao_blur", "separable"},
                           {"ssao_bias", "0.003"}};
         // The strengths that suit them, see ssao_constants.csv.
         const std::map<std::string, std::string> strengths = {

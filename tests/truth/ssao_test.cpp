@@ -19,8 +19,9 @@ std::filesystem::path rung;
 constexpr glm::ivec2 size{160, 120};
 constexpr int rays = 100;
 
-const Set recommended = {{"ssao", "bitmask"},    {"ssao_normals", "geometric"}, {"ssao_noise", "interleaved"},
-                         {"ssao_blur", "plane"}, {"ssao_samples", "12"},        {"ssao_slices", "1"},
+const Set recommended = {{"ssao", "bitmask"},           {"ssao_normals", "geometric"},
+                         {"ssao_noise", "interleaved"}, {"ssao_blur", "separable"},
+                         {"ssao_samples", "12"},        {"ssao_slices", "1"},
                          {"ssao_bias", "0.003"}};
 
 Set with(Set set, const Set& more) {

@@ -23,11 +23,11 @@ struct Options {
 
     Options() {
         all.preset({"recommended",
-                    "half as far from rays as 64 samples in a hemisphere, by twelve taps and a blur",
+                    "close to rays, by twelve taps and a blur",
                     {{"ssao", "bitmask"},
                      {"ssao_normals", "geometric"},
                      {"ssao_noise", "interleaved"},
-                     {"ssao_blur", "plane"},
+                     {"ssao_blur", "separable"},
                      {"ssao_samples", "12"},
                      {"ssao_slices", "1"},
                      {"ssao_bias", "0.003"}}});

@@ -99,11 +99,11 @@ void Ssao::draw(Frame& frame, const gbuffer::View& view, const ShaderPart& gbuff
         occlusion_.remake({{.name = "ssao", .format = Format::rg16f, .filter = Filter::nearest}}, size);
     else
         occlusion_.remake({{.name = "ssao", .format = Format::r8}}, size);
-    const bool with_view_z = options.isBlurred() || options.isHalved();
     const Defines defines = gbuffer.defines + options.method.defines() + options.noise.defines() +
                             options.ssao_normals.defines() + options.spacing.defines() +
                             options.sectors.defines() + options.rounding.defines() +
-                            Defines{{"WITH_VIEW_Z", with_view_z ? "1" : "0"},
+                            Defines{{"WITH_WEIGHT", options.isBlurred() ? "1" : "0"},
+                                    {"WITH_VIEW_Z", options.isHalved() ? "1" : "0"},
                                     {"WITH_POWER", options.power == 1.0F ? "0" : "1"},
                                     {"SSAO_SAMPLES", std::to_string(int(options.samples))},
                                     {"SSAO_SLICES", std::to_string(int(options.slices))},
@@ -130,12 +130,13 @@ void Ssao::draw(Frame& frame, const gbuffer::View& view, const ShaderPart& gbuff
     const auto blur = [&](const std::string& name, const Framebuffer& from, const Framebuffer& to,
                           glm::ivec2 along) {
         const bool is_last = &to == &occlusion_;
-        frame.pass(name, to,
-                   {.program = shaders_.fullScreen(
-                        along == glm::ivec2(1) ? "08_ssao/blur_plane.frag" : "08_ssao/blur.frag",
-                        {{"WITH_VIEW_Z", is_last && !options.isHalved() ? "0" : "1"}}),
-                    .inputs = {{"occlusion", from.color()}},
-                    .uniforms = {{"uv_step", glm::vec2(along) / glm::vec2(size)}}});
+        frame.pass(
+            name, to,
+            {.program = shaders_.fullScreen(
+                 along == glm::ivec2(1) ? "08_ssao/blur_plane.frag" : "08_ssao/blur.frag",
+                 {{"WITH_WEIGHT", is_last ? "0" : "1"}, {"WITH_VIEW_Z", options.isHalved() ? "1" : "0"}}),
+             .inputs = {{"occlusion", from.color()}},
+             .uniforms = {{"uv_step", glm::vec2(along) / glm::vec2(size)}}});
     };
     if (options.ssao_blur == "separable") {
         blur("ssao_blur_x", noisy_[0], noisy_[1], {1, 0});

@@ -59,8 +59,8 @@ class Ssao {
     // tell surfaces apart
     Framebuffer occlusion_{{{.name = "ssao", .format = Format::r8}}, {1, 1}}; // bound even where off
     std::array<Framebuffer, 2> noisy_{
-        Framebuffer({{.name = "ssao_noisy", .format = Format::rg16f, .filter = Filter::nearest}}, {1, 1}),
-        Framebuffer({{.name = "ssao_half_blurred", .format = Format::rg16f, .filter = Filter::nearest}},
+        Framebuffer({{.name = "ssao_noisy", .format = Format::rgba16f, .filter = Filter::nearest}}, {1, 1}),
+        Framebuffer({{.name = "ssao_half_blurred", .format = Format::rgba16f, .filter = Filter::nearest}},
                     {1, 1})};
 };
 

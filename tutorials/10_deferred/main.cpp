@@ -25,6 +25,8 @@ struct DeferredOptions {
     ssao::SsaoOptions ssao{all};
     Toggle sun = all.toggle("sun", true, "the directional light, with its shadow");
     Toggle points = all.toggle("points", true, "the three coloured lights");
+    Toggle occluded_direct =
+        all.toggle("occluded_direct", true, "occlusion darkens the sun and the coloured lights, too");
     Toggle environment = all.toggle("environment", true, "ambient and reflected light");
     environment_light::EnvironmentOptions environment_light{all};
     ToneMapOptions display{all, "clamp", "gamma22"};
@@ -35,6 +37,41 @@ struct DeferredOptions {
     Toggle filmstrip = all.toggle("filmstrip", true, "four buffers along the bottom");
     OrbitSettings orbit{all};
     // end excerpt
+
+    DeferredOptions() {
+        all.preset({"recommended",
+                    "what each rung before found best, at half the cost where nobody sees it",
+                    {{"packing", "rgba16"},
+                     {"positions", "depth24"},
+                     {"texture_filter", "mipmapped"},
+                     {"shadow_bias", "plane"},
+                     {"shadow_pcf", "3"},
+                     {"shadow_fit", "stable"},
+                     {"shadow_size", "2048"},
+                     {"ssao", "bitmask"},
+                     {"ssao_normals", "geometric"},
+                     {"ssao_noise", "interleaved"},
+                     {"ssao_blur", "separable"},
+                     {"ssao_samples", "12"},
+                     {"ssao_slices", "1"},
+                     {"ssao_bias", "0.003"},
+                     {"ssao_resolution", "half"},
+                     {"ssao_multi_bounce", "on"},
+                     {"occluded_direct", "off"},
+                     {"environment_diffuse", "sh9_sun"},
+                     {"environment_specular", "prefiltered"},
+                     {"prefilter_samples", "32"},
+                     {"environment_sun", "on"},
+                     {"environment_brdf", "table"},
+                     {"environment_energy", "fdez_aguera"},
+                     {"tone_map", "pbr_neutral"},
+                     {"encode", "srgb"},
+                     {"filmstrip", "off"}}});
+        all.dial({"ssao_resolution", {"full", "half"}});
+        all.dial({"ssao_samples", {"48", "24", "16", "12", "6"}});
+        all.dial({"shadow_size", {"4096", "2048", "1024", "512"}});
+        all.dial({"texture_filter", {"mipmapped", "bilinear"}});
+    }
 };
 
 // The four tiles: as high as wide in screen coordinates, so that each shows the whole screen.
@@ -70,6 +107,7 @@ class Deferred final : public Rung {
           environment_(resources.file(&RungFiles::environment, "assets/sky/sky.hdr"), resources.warnings),
           gbuffer_(resources.shaders), shadow_(resources.shaders), ssao_(resources.shaders) {}
 
+    // excerpt: frame
     void render(Frame& frame) override {
         setUp(frame);
         shadow_.draw(frame, sun_, view_, scene_.depthDraws(options_.scene), options_.shadow);
@@ -80,6 +118,7 @@ class Deferred final : public Rung {
         present(frame);
         if (options_.filmstrip) drawFilmstrip(frame);
     }
+    // end excerpt
 
   private:
     // excerpt: animation
@@ -118,6 +157,7 @@ class Deferred final : public Rung {
             ssao_.part(view_, options_.ssao) +
             ShaderPart{.defines = options_.view.defines() +
                                   Defines{{"SUN", options_.sun ? "1" : "0"},
+                                          {"OCCLUDED_DIRECT", options_.occluded_direct ? "1" : "0"},
                                           {"POINTS", options_.points ? "1" : "0"},
                                           {"ENVIRONMENT", options_.environment ? "1" : "0"}},
                        .uniforms = {{"point_position", point_positions_}, {"point_color", point_colors_}}};
