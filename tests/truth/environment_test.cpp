@@ -221,7 +221,7 @@ TEST(EnvironmentLight, ofASunAloneIsWhatADoubleSays) {
             error.add(frame, pixel, light * sun->irradiance);
         }
         std::printf("roughness %.2f: the sun's light is off by %.2f %%\n", roughness, error.rmsPercent());
-        EXPECT_LT(error.rmsPercent(), 1) << roughness;
+        EXPECT_LT(error.rmsPercent(), 1) << roughness; // half floats: 0.05 % of a peak far above the mean
     }
 }
 
