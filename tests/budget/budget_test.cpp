@@ -229,7 +229,7 @@ const std::vector<Case> optima = {
     {"03_gaussian_bloom", "flip=0.05", {{"sigma", "4"}}, "original", "swarm"},
     {"04_pyramid_bloom", "flip=0.03", {{"levels", "2"}}, "recommended", "swarm"},
     {"05_hdr_bloom", "flip=0.06", {{"levels", "3"}, {"intensity", "0.1"}}, "recommended", "swarm"},
-    {"07_shadow_map", "flip=0.02", {{"scene", "plot"}}, "recommended"},
+    {"07_shadow_map", "flip=0.015", {{"scene", "plot"}}, "recommended"},
     {"08_ssao", "flip=0.02", {{"scene", "room"}}, "recommended"},
     {"09_environment_light", "flip=0.02", {}, "recommended"},
 };
