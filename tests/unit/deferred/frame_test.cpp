@@ -108,7 +108,8 @@ TEST_F(DeferredFrame, isTheSumOfItsLights) {
 }
 
 TEST_F(DeferredFrame, looksNearlyTheSameFromEveryLayout) {
-    render(R"({"size":"160x120","out":"OUT/seed.png","set":{"filmstrip":false,"ssao_blur":"separable","ssao_noise":"interleaved"}}
+    render(
+        R"({"size":"160x120","out":"OUT/seed.png","set":{"filmstrip":false,"ssao_blur":"separable","ssao_noise":"interleaved"}}
 {"size":"160x120","out":"OUT/octahedral.png","set":{"filmstrip":false,"ssao_blur":"separable","ssao_noise":"interleaved","normals":"oct16"}}
 {"size":"160x120","out":"OUT/depth.png","set":{"filmstrip":false,"ssao_blur":"separable","ssao_noise":"interleaved","positions":"depth24"}}
 {"size":"160x120","out":"OUT/compact.png","set":{"filmstrip":false,"ssao_blur":"separable","ssao_noise":"interleaved","normals":"oct16","positions":"depth24","gloss":"palette"}}
