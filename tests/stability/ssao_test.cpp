@@ -121,6 +121,16 @@ TEST_F(SsaoStability, isTooLightWhereThingsTouch) {
     EXPECT_LT(frames->errors(names.size() - 1, "cat").dark.bias(), 0.15) << names.back();
 }
 
+// Within eight pixels of the border. What lies outside occludes as well, and no method sees it.
+TEST_F(SsaoStability, doesNotKnowWhatLiesOutsideThePicture) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const truth::PixelErrors border = frames->errors(i, "room").border;
+        ASSERT_GT(border.count(), 1000U);
+        tell(i, "at the picture's border, RMSE", decimals(border.rmse(), 3));
+        EXPECT_LT(border.rmse(), 0.1) << names[i];
+    }
+}
+
 TEST_F(SsaoStability, isNoiseWithoutABlur) {
     for (std::size_t i = 0; i < names.size(); ++i) {
         const double noise = frames->errors(i).noise.rmse();

@@ -31,8 +31,6 @@ struct SsaoOptions {
     Toggle multi_bounce;
 
     bool isOn() const { return !(method == "off"); }
-    // Whether it is searched along slices through the view direction.
-    bool hasSlices() const { return method == "hbao" || method == "gtao" || method == "bitmask"; }
     bool isBlurred() const { return !(ssao_blur == "off"); }
     bool isHalved() const { return resolution == "half"; }
     // Taps from the pixel to either end of a slice.
