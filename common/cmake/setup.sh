@@ -37,6 +37,7 @@ libopencolorio-dev      OpenColorIO: ACES to compare tone curves with
 xvfb                    a display for the window test
 xauth                   Xvfb's companion
 xdotool                 presses the window's keys
+x11-xserver-utils       sets the display's scale
 x11-utils               asks the window for its state
 imagemagick             takes and compares screenshots
 valgrind                exact instruction counts

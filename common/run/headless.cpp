@@ -266,6 +266,12 @@ nlohmann::ordered_json settingJson(const Setting& setting) {
     constexpr const char* roles[] = {"",        "orbit_yaw", "orbit_pitch", "orbit_zoom", "shows_divider",
                                      "divider", "other_side"};
     if (setting.role != Setting::Role::none) json["role"] = roles[static_cast<std::size_t>(setting.role)];
+    json["group"] = group_names[static_cast<std::size_t>(setting.group)];
+    for (const Setting::Need& need : setting.needs) {
+        auto& any = json["needs"].emplace_back(nlohmann::ordered_json::array());
+        for (const auto& [other, values] : need)
+            any.push_back({{"setting", other}, {"values", values}});
+    }
     Setting at_default = setting;
     at_default.value = setting.default_value;
     switch (setting.kind) {

@@ -299,7 +299,9 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
         ->type_name("KIND");
     app.add_flag("--or-picture", or_picture,
                  "where no window can be opened, render " + info.name + ".png instead, and say so");
-    app.add_option("--size", size, "pixels of the frame, 640x480 unless given")->type_name("WxH");
+    app.add_option("--size", size,
+                   "pixels of the frame, 640x480 unless given; a window without it has 1280x720")
+        ->type_name("WxH");
     app.add_option("--frame", frame, "which frame, at N/60 s; the first is 1, the default 60")
         ->type_name("N");
     app.add_option("--frames", frames, "several frames, every STEP-th")->type_name("A..B[:STEP]");
@@ -362,7 +364,8 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
 
     for (const std::string& injection : injections)
         options.request.injections.push_back(parseInjection(injection));
-    if (!size.empty()) options.request.size = parseSize(size);
+    options.is_size_given = !size.empty();
+    if (options.is_size_given) options.request.size = parseSize(size);
     if (!frame.empty() && !frames.empty()) throw UsageError("--frame and --frames exclude each other");
     if (!frame.empty())
         options.request.first_frame = options.request.last_frame =

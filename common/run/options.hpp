@@ -16,6 +16,7 @@ struct Options {
     ContextKind context = ContextKind::window;
     CounterKind counter = CounterKind::automatic;
     FrameRequest request;
+    bool is_size_given = false;
     std::vector<FrameRequest> batch; // in place of request, where --batch was given
     bool is_batch = false;
     std::optional<Budget> budget;           // for the request; no batch then

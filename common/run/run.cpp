@@ -34,7 +34,8 @@ int renderInstead(Options options, const NoWindow& error, const RungInfo& info, 
 
 int showWindow(const Options& options, const RungInfo& info, Settings& settings) {
     try {
-        return runWindow(options.request, info, settings);
+        const auto picture = options.is_size_given ? std::optional(options.request.size) : std::nullopt;
+        return runWindow(options.request, picture, info, settings);
     } catch (const NoWindow& error) {
         if (!options.or_picture) throw;
         return renderInstead(options, error, info, settings);

@@ -21,6 +21,7 @@ OrbitSettings::OrbitSettings(Settings& settings)
     settings.role(Setting::Role::orbit_yaw, {"camera_yaw_deg"});
     settings.role(Setting::Role::orbit_pitch, {"camera_pitch_deg"});
     settings.role(Setting::Role::orbit_zoom, {"camera_zoom"});
+    settings.group(Setting::Group::camera, {"camera_yaw_deg", "camera_pitch_deg", "camera_zoom"});
 }
 
 Camera OrbitSettings::apply(const Camera& scripted) const {

@@ -50,11 +50,15 @@ void FrameRequest::applyTo(Settings& settings) const {
 Command headlessCommand(const FrameRequest& request, const std::string& context) {
     Command command{.program = std::filesystem::read_symlink("/proc/self/exe"),
                     .arguments = {"--headless", "--preset", request.preset, "--size",
-                                  std::to_string(request.size.x) + "x" + std::to_string(request.size.y),
-                                  "--frame", std::to_string(request.first_frame)}};
+                                  std::to_string(request.size.x) + "x" + std::to_string(request.size.y)}};
     const auto add = [&](const char* option, const std::string& value) {
         if (!value.empty()) command.arguments.insert(command.arguments.end(), {option, value});
     };
+    if (request.isSequence())
+        add("--frames", std::to_string(request.first_frame) + ".." + std::to_string(request.last_frame) +
+                            ":" + std::to_string(request.step));
+    else
+        add("--frame", std::to_string(request.first_frame));
     add("--context", context);
     for (const std::string& set : request.sets)
         add("--set", set);

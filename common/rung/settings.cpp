@@ -127,6 +127,41 @@ void Settings::role(Setting::Role role, std::initializer_list<std::string_view> 
         at(name).role = role;
 }
 
+void Settings::group(Setting::Group group, std::initializer_list<std::string_view> names) {
+    for (const std::string_view name : names)
+        at(name).group = group;
+}
+
+void Settings::needs(std::initializer_list<std::string_view> names, const Setting::Need& need) {
+    for (const auto& [other, values] : need) {
+        Setting& needed = at(other);
+        for (const std::string& value : values)
+            set(other, value); // as for presets: one that does not fit fails at every start
+        needed.value = needed.default_value;
+    }
+    for (const std::string_view name : names)
+        at(name).needs.push_back(need);
+}
+
+std::string Settings::whyIdle(const Setting& setting) const {
+    for (const Setting::Need& need : setting.needs) {
+        std::string only_with;
+        std::string why_others;
+        bool is_met = false;
+        for (const auto& [other, values] : need) {
+            const Setting& needed = at(other);
+            only_with +=
+                (only_with.empty() ? "only with " : ", or ") + other + " = " + joined(values, " or ");
+            if (std::find(values.begin(), values.end(), needed.text()) == values.end()) continue;
+            const std::string why = whyIdle(needed);
+            if (why.empty()) is_met = true;
+            if (why_others.empty()) why_others = why;
+        }
+        if (!is_met) return why_others.empty() ? only_with : why_others;
+    }
+    return {};
+}
+
 void Settings::preset(Preset preset) {
     const Preset& added = presets_.emplace_back(std::move(preset));
     applyPreset(
@@ -145,8 +180,12 @@ void Settings::dial(Dial dial) {
 }
 
 Setting& Settings::at(std::string_view name) {
+    return const_cast<Setting&>(std::as_const(*this).at(name)); // which this may change
+}
+
+const Setting& Settings::at(std::string_view name) const {
     std::vector<std::string> names;
-    for (Setting& setting : settings_) {
+    for (const Setting& setting : settings_) {
         if (setting.name == name) return setting;
         names.push_back(setting.name);
     }

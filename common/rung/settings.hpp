@@ -19,6 +19,14 @@ struct Setting {
     // the divider of two compared methods while that is shown; goldens ask less of the side that is drawn
     // like the first.
     enum class Role { none, orbit_yaw, orbit_pitch, orbit_zoom, shows_divider, divider, other_side };
+    // Where it stands in a list for people: what is taught, what is drawn with it, and how that is displayed.
+    enum class Group { method, look, camera, tone };
+    // Other settings, and values of theirs with which this one has an effect: any of them will do.
+    struct With {
+        std::string setting;
+        std::vector<std::string> values;
+    };
+    using Need = std::vector<With>;
 
     std::string name;
     std::string help; // one line, with the unit
@@ -30,10 +38,14 @@ struct Setting {
     double value = 0;
     std::string owner = {}; // the rung that teaches it, where rungs share it; empty: this one
     Role role = Role::none;
+    Group group = Group::method;
+    std::vector<Need> needs = {}; // all of them have to be met, or it changes nothing
 
     // As the command line spells it: "0.6", "5", "on", "aces_narkowicz".
     std::string text() const;
 };
+
+inline constexpr const char* group_names[] = {"method", "look", "camera", "tone"}; // of Setting::Group
 
 // Handles a rung keeps for reading its settings; valid as long as the Settings they came from.
 class Number {
@@ -96,8 +108,18 @@ class Settings {
     // the other rungs one each. Throws UsageError where one is not declared.
     void shared(std::string_view owner, std::initializer_list<std::string_view> names);
 
-    // Throws UsageError where one is not declared.
+    // Throw UsageError where one is not declared.
     void role(Setting::Role role, std::initializer_list<std::string_view> names);
+    void group(Setting::Group group, std::initializer_list<std::string_view> names);
+
+    // These settings change no picture unless another one has one of the values that the need names. Several
+    // needs of one setting have to be met together. Throws UsageError where a setting or a value is not
+    // declared.
+    void needs(std::initializer_list<std::string_view> names, const Setting::Need& need);
+
+    // "only with tone_map = reinhard_extended": the first need that the present values do not meet, or that
+    // is met by settings alone whose own needs are not. Empty where it has an effect.
+    std::string whyIdle(const Setting& setting) const;
 
     // A named set of values over the defaults. "original", the defaults themselves, always exists; it was
     // once called "seed", which applyPreset() still takes.
@@ -127,6 +149,7 @@ class Settings {
     const std::vector<Preset>& presets() const { return presets_; }
     const std::vector<Dial>& dials() const { return dials_; }
     Setting& at(std::string_view name); // throws UsageError where there is none
+    const Setting& at(std::string_view name) const;
 
     // KEY=VALUE for every setting that differs from its default; the same as one line, each after "--set".
     std::vector<std::string> changed() const;

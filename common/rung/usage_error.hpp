@@ -13,10 +13,10 @@ struct UsageError : std::runtime_error {
 };
 
 // What there is, as a message lists it: "one, two, three".
-inline std::string joined(const std::vector<std::string>& words) {
+inline std::string joined(const std::vector<std::string>& words, const char* between = ", ") {
     std::string text;
     for (const std::string& word : words)
-        text += (text.empty() ? "" : ", ") + word;
+        text += (text.empty() ? "" : between) + word;
     return text;
 }
 

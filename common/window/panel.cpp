@@ -1,12 +1,13 @@
 // The panel, in Dear ImGui.
 #include "window/panel.hpp"
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
+#include "window/ui.hpp"
+
 #include <algorithm>
-#include <backends/imgui_impl_glfw.h>
-#include <backends/imgui_impl_opengl3.h>
+#include <cctype>
+#include <cfloat>
 #include <imgui.h>
+#include <map>
 
 namespace gll {
 namespace {
@@ -18,69 +19,32 @@ void numberWidget(Setting& setting) {
         ImGuiSliderFlags_AlwaysClamp | (wide ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
     if (setting.kind == Setting::Kind::integer) {
         int value = static_cast<int>(setting.value);
-        if (ImGui::SliderInt(setting.name.c_str(), &value, static_cast<int>(setting.min),
-                             static_cast<int>(setting.max), "%d", flags))
+        if (ImGui::SliderInt("##value", &value, static_cast<int>(setting.min), static_cast<int>(setting.max),
+                             "%d", flags))
             setting.value = value;
         return;
     }
     auto value = static_cast<float>(setting.value);
-    if (ImGui::SliderFloat(setting.name.c_str(), &value, static_cast<float>(setting.min),
-                           static_cast<float>(setting.max), "%.3g", flags))
+    if (ImGui::SliderFloat("##value", &value, static_cast<float>(setting.min),
+                           static_cast<float>(setting.max), "%.4g", flags))
         setting.value = std::clamp(static_cast<double>(value), setting.min, setting.max);
 }
 
-constexpr ImGuiPopupFlags any_popup = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
-
-} // namespace
-
-// As ImGui's, but Esc closes it.
-bool Panel::beginCombo(const char* label, const char* chosen) const {
-    if (!ImGui::BeginCombo(label, chosen)) return false;
-    if (close_popup_) ImGui::CloseCurrentPopup();
-    return true;
-}
-
-// Of the widget before it, where the mouse is over that: beside the panel where there is room, else below or
-// above the widget; never beyond the window, where ImGui's own would end.
-void Panel::tooltip(const std::string& text) const {
-    if (!ImGui::IsItemHovered()) return;
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const ImVec2 padding = style.WindowPadding;
-    const float gap = style.ItemSpacing.y;
-    const float panel_right = ImGui::GetWindowPos().x + ImGui::GetWindowSize().x;
-    const float room = display.x - panel_right - gap - 2 * padding.x;
-    const bool beside = room > 150 * scale_;
-    const float wrap = std::max(std::min(260 * scale_, beside ? room : display.x - 2 * padding.x), 1.0F);
-    const ImVec2 text_size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
-    const ImVec2 size(text_size.x + 2 * padding.x, text_size.y + 2 * padding.y);
-    ImVec2 place(panel_right + gap, ImGui::GetItemRectMin().y);
-    if (!beside) {
-        place = {ImGui::GetMousePos().x, ImGui::GetItemRectMax().y + gap};
-        if (place.y + size.y > display.y) place.y = ImGui::GetItemRectMin().y - gap - size.y;
-    }
-    place.x = std::clamp(place.x, 0.0F, std::max(display.x - size.x, 0.0F));
-    place.y = std::clamp(place.y, 0.0F, std::max(display.y - size.y, 0.0F));
-    ImGui::SetNextWindowPos(place);
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(padding.x + wrap);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
-}
-
-void Panel::widget(Setting& setting) {
+void widget(Setting& setting) {
     switch (setting.kind) {
     case Setting::Kind::toggle: {
         bool on = setting.value != 0;
-        if (ImGui::Checkbox(setting.name.c_str(), &on)) setting.value = on ? 1 : 0;
+        if (ImGui::Checkbox("##value", &on)) setting.value = on ? 1 : 0;
         break;
     }
     case Setting::Kind::choice:
-        if (beginCombo(setting.name.c_str(), setting.text().c_str())) {
-            for (std::size_t i = 0; i < setting.choices.size(); ++i)
-                if (ImGui::Selectable(setting.choices[i].c_str(), static_cast<double>(i) == setting.value))
+        if (beginCombo("##value", setting.text().c_str())) {
+            for (std::size_t i = 0; i < setting.choices.size(); ++i) {
+                const bool is_chosen = static_cast<double>(i) == setting.value;
+                if (ImGui::Selectable(setting.choices[i].c_str(), is_chosen))
                     setting.value = static_cast<double>(i);
+                if (is_chosen) ImGui::SetItemDefaultFocus();
+            }
             ImGui::EndCombo();
         }
         break;
@@ -89,96 +53,201 @@ void Panel::widget(Setting& setting) {
         numberWidget(setting);
         break;
     }
-    tooltip(setting.help);
 }
 
-void Panel::settingsSection(Settings& settings) {
-    if (ImGui::Button("reset")) settings.reset();
-    tooltip("every setting as it is by default");
-    for (const Settings::Preset& preset : settings.presets()) {
-        ImGui::SameLine();
-        if (ImGui::Button(preset.name.c_str())) settings.applyPreset(preset.name);
-        tooltip(preset.help);
+std::string describe(const Setting& setting, const std::string& why_idle, double preset_value) {
+    std::string text = setting.help + "\n--set " + setting.name + "=" + setting.text();
+    if (!why_idle.empty()) text += "\nHas no effect now: " + why_idle + ".";
+    if (setting.value != preset_value) {
+        Setting before = setting;
+        before.value = preset_value;
+        text += "\nThe preset has " + before.text() + ".";
     }
-    for (Setting& setting : settings.all())
-        widget(setting);
+    return text;
 }
 
-namespace {
+// "Shadow map (07)" for 07_shadow_map.
+std::string ownerLabel(const std::string& owner) {
+    const auto line = owner.find('_');
+    if (line == std::string::npos) return owner;
+    return labelOf(owner.substr(line + 1)) + " (" + owner.substr(0, line) + ")";
+}
 
-void keysSection() {
-    for (const char* line :
-         {"Space   pause, go on", ". ,     one frame on, back", "drag    orbit, or the divider",
-          "wheel   zoom", "R       the scripted camera", "P       write this frame", "H       hide the panel",
-          "Esc     close a list, or quit"})
-        ImGui::TextUnformatted(line);
+bool button(const char* label, bool is_enabled, const char* help) {
+    ImGui::BeginDisabled(!is_enabled);
+    const bool pressed = ImGui::Button(label);
+    ImGui::EndDisabled();
+    tooltip(help);
+    return pressed;
+}
+
+std::vector<double> valuesOf(const Settings& settings) {
+    std::vector<double> values;
+    for (const Setting& setting : settings.all())
+        values.push_back(setting.value);
+    return values;
 }
 
 } // namespace
 
-Panel::Panel(GLFWwindow* window) {
-    IMGUI_CHECKVERSION();
-    ImGui::CreateContext();
-    ImGuiIO& io = ImGui::GetIO();
-    io.IniFilename = nullptr; // no file is left where the program happens to be run
-    float scale_y = 1;
-    glfwGetWindowContentScale(window, &scale_, &scale_y);
-    scale_ = std::clamp(scale_, 1.0F, 4.0F);
-    ImFontConfig font;
-    font.SizePixels = 13 * scale_;
-    io.Fonts->AddFontDefault(&font);
-    ImGui::StyleColorsDark();
-    ImGui::GetStyle().ScaleAllSizes(scale_);
-    ImGui_ImplGlfw_InitForOpenGL(window, true);
-    ImGui_ImplOpenGL3_Init("#version 330 core");
+std::string labelOf(const std::string& name) {
+    static const std::map<std::string, std::string> units = {
+        {"ev", "(EV)"}, {"s", "(s)"}, {"deg", "(\u00b0)"}, {"px", "(px)"}, {"percent", "(%)"}};
+    static const std::map<std::string, std::string> acronyms = {
+        {"ssao", "SSAO"}, {"brdf", "BRDF"}, {"pcf", "PCF"},         {"hdr", "HDR"},
+        {"aa", "AA"},     {"v", "V"},       {"gbuffer", "G-buffer"}};
+    std::string label;
+    std::size_t begin = 0;
+    while (begin <= name.size()) {
+        const std::size_t end = std::min(name.find('_', begin), name.size());
+        std::string word = name.substr(begin, end - begin);
+        const bool is_last = end == name.size();
+        if (const auto unit = units.find(word); is_last && begin > 0 && unit != units.end())
+            word = unit->second;
+        else if (const auto acronym = acronyms.find(word); acronym != acronyms.end())
+            word = acronym->second;
+        label += (label.empty() ? "" : " ") + word;
+        begin = end + 1;
+    }
+    if (!label.empty()) label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
+    return label;
 }
 
-Panel::~Panel() {
-    ImGui_ImplOpenGL3_Shutdown();
-    ImGui_ImplGlfw_Shutdown();
-    ImGui::DestroyContext();
+Panel::Panel(std::string rung, Settings& settings) : rung_(std::move(rung)) {
+    const std::vector<double> now = valuesOf(settings);
+    std::ptrdiff_t most_alike = -1;
+    for (const Settings::Preset& preset : settings.presets()) {
+        settings.applyPreset(preset.name);
+        presets_.push_back({preset.name, preset.help, valuesOf(settings)});
+        std::ptrdiff_t alike = 0;
+        for (std::size_t i = 0; i < now.size(); ++i)
+            alike += now[i] == presets_.back().values[i] ? 1 : 0;
+        if (alike <= most_alike) continue;
+        most_alike = alike;
+        preset_ = presets_.size() - 1;
+    }
+    for (std::size_t i = 0; i < now.size(); ++i)
+        settings.all()[i].value = now[i];
 }
 
-bool Panel::hasMouse() const { return ImGui::GetIO().WantCaptureMouse; }
-bool Panel::hasKeyboard() const { return ImGui::GetIO().WantTextInput; }
-
-bool Panel::closePopup() {
-    close_popup_ = visible && ImGui::IsPopupOpen("", any_popup);
-    return close_popup_;
+double Panel::presetValue(const Settings& settings, const Setting& setting) const {
+    for (std::size_t i = 0; i < settings.all().size(); ++i)
+        if (&settings.all()[i] == &setting) return presets_[preset_].values[i];
+    return setting.default_value;
 }
 
-// At the bottom, where it moves nothing, and over all else.
-void Panel::messageLine(const std::string& text) const {
-    const ImVec2 padding = ImGui::GetStyle().WindowPadding;
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const float wrap = std::max(display.x - 2 * (8 + padding.x), 1.0F);
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
-    const ImVec2 place(8 + padding.x, display.y - 8 - padding.y - size.y);
-    ImDrawList& over = *ImGui::GetForegroundDrawList();
-    over.AddRectFilled({place.x - padding.x, place.y - padding.y},
-                       {place.x + size.x + padding.x, place.y + size.y + padding.y},
-                       ImGui::GetColorU32(ImGuiCol_PopupBg));
-    over.AddText(nullptr, 0, place, ImGui::GetColorU32(ImGuiCol_Text), text.c_str(), nullptr, wrap);
+void Panel::presetsSection(Settings& settings, const PanelState& state, PanelActions& actions) {
+    const std::vector<double> now = valuesOf(settings);
+    std::size_t changes = 0;
+    for (std::size_t i = 0; i < now.size(); ++i)
+        changes += now[i] == presets_[preset_].values[i] ? 0 : 1;
+    for (std::size_t i = 0; i < presets_.size(); ++i) {
+        const bool is_in_use = i == preset_;
+        if (i > 0) ImGui::SameLine();
+        if (is_in_use) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetColorU32(ImGuiCol_SliderGrab));
+        if (ImGui::Button(presets_[i].name.c_str())) {
+            settings.applyPreset(presets_[i].name);
+            preset_ = i;
+        }
+        if (is_in_use) ImGui::PopStyleColor();
+        tooltip("--preset " + presets_[i].name + ": " + presets_[i].help);
+    }
+    if (changes > 0) {
+        ImGui::SameLine();
+        ImGui::TextDisabled("%zu changed", changes);
+        tooltip("They are marked. The arrow at the end of a line takes one back, the preset's button all.");
+    }
+    if (button("Undo", state.can_undo, "Ctrl+Z")) actions.undo = true;
+    ImGui::SameLine();
+    if (button("Redo", state.can_redo, "Ctrl+Y")) actions.redo = true;
+    ImGui::SameLine();
+    if (button("Copy command", true, "Ctrl+C: the command line that renders this very frame, for a shell"))
+        actions.copy_command = true;
+    ImGui::SameLine();
+    if (button("Help", true, "F1: the keys, and what this rung is about")) actions.show_help = true;
 }
 
-void Panel::wrappedText(const std::string& text) const {
-    if (text.empty()) return;
-    ImGui::PushTextWrapPos(230 * scale_);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
+// Name, value, and an arrow that takes a change back.
+void Panel::row(Setting& setting, double preset_value, const std::string& why_idle) {
+    ImGui::PushID(setting.name.c_str());
+    ImGui::TableNextRow();
+    ImGui::TableNextColumn();
+    const bool is_changed = setting.value != preset_value;
+    ImGui::BeginDisabled(!why_idle.empty());
+    ImGui::AlignTextToFramePadding();
+    if (is_changed) ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(255, 196, 92, 255));
+    ImGui::TextUnformatted(labelOf(setting.name).c_str());
+    if (is_changed) ImGui::PopStyleColor();
+    ImGui::EndDisabled(); // a tooltip would be as faint
+    tooltip(describe(setting, why_idle, preset_value));
+    ImGui::TableNextColumn();
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    ImGui::BeginDisabled(!why_idle.empty());
+    widget(setting);
+    ImGui::EndDisabled();
+    tooltip(describe(setting, why_idle, preset_value));
+    ImGui::TableNextColumn();
+    if (is_changed) {
+        const bool has_arrow = ImGui::GetFont()->FindGlyphNoFallback(0x21ba) != nullptr;
+        if (ImGui::Button(has_arrow ? "\u21ba" : "<")) setting.value = preset_value;
+        tooltip("takes this change back");
+    }
+    ImGui::PopID();
 }
 
-void Panel::budgetSection(const PanelState& state) {
+void Panel::table(const char* name, const std::vector<Setting*>& shown, const Settings& settings) {
+    if (!ImGui::BeginTable(name, 3, ImGuiTableFlags_NoSavedSettings)) return;
+    const float em = ImGui::GetFontSize();
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 0.46F);
+    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.54F);
+    ImGui::TableSetupColumn("back", ImGuiTableColumnFlags_WidthFixed, 1.7F * em);
+    for (Setting* setting : shown)
+        row(*setting, presetValue(settings, *setting), settings.whyIdle(*setting));
+    ImGui::EndTable();
+}
+
+void Panel::settingsSection(Settings& settings) {
+    for (const auto group :
+         {Setting::Group::method, Setting::Group::look, Setting::Group::tone, Setting::Group::camera}) {
+        std::vector<Setting*> own;
+        std::vector<std::pair<std::string, std::vector<Setting*>>> owned; // by the rung that teaches them
+        for (Setting& setting : settings.all()) {
+            if (setting.group != group) continue;
+            const bool is_own =
+                setting.owner.empty() || setting.owner == rung_ || group == Setting::Group::tone;
+            if (is_own) {
+                own.push_back(&setting);
+                continue;
+            }
+            const auto of_owner = std::find_if(owned.begin(), owned.end(),
+                                               [&](const auto& one) { return one.first == setting.owner; });
+            if (of_owner != owned.end())
+                of_owner->second.push_back(&setting);
+            else
+                owned.push_back({setting.owner, {&setting}});
+        }
+        const std::string name = labelOf(group_names[static_cast<std::size_t>(group)]);
+        const bool opens = group != Setting::Group::camera;
+        ImGui::SetNextItemOpen(opens, ImGuiCond_Once);
+        if (!own.empty() && ImGui::CollapsingHeader(name.c_str())) table(name.c_str(), own, settings);
+        for (const auto& [owner, shown] : owned)
+            if (ImGui::CollapsingHeader(ownerLabel(owner).c_str())) table(owner.c_str(), shown, settings);
+    }
+}
+
+void Panel::budgetSection(const PanelState& state, PanelActions& actions) {
     if (state.searching_s > 0) {
         ImGui::Text("searching, %.0f s", state.searching_s);
         ImGui::SameLine();
-        stop_asked = ImGui::Button("stop");
+        actions.stop_search = ImGui::Button("Stop");
         return;
     }
     // A rung that meters no exposure refuses a budget of it.
     const bool meters = std::any_of(state.readings.begin(), state.readings.end(),
                                     [](const Reading& reading) { return reading.is_exposure; });
-    if (beginCombo("error", kindName(budget_.kind))) {
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextItemWidth(5 * em);
+    if (beginCombo("##error", kindName(budget_.kind))) {
         for (const Budget::Kind kind : {Budget::Kind::flip, Budget::Kind::rmse, Budget::Kind::ev})
             if ((kind != Budget::Kind::ev || meters) &&
                 ImGui::Selectable(kindName(kind), kind == budget_.kind))
@@ -187,57 +256,76 @@ void Panel::budgetSection(const PanelState& state) {
     }
     tooltip("flip: mean difference as the eye sees it; rmse: of display values, both 0 to 1" +
             std::string(meters ? "; ev: of the exposure, stops" : ""));
+    ImGui::SameLine();
+    ImGui::TextUnformatted("at most");
+    ImGui::SameLine();
     auto limit = static_cast<float>(budget_.limit);
-    if (ImGui::SliderFloat("at most", &limit, 0.001F, 1, "%.3g",
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    if (ImGui::SliderFloat("##limit", &limit, 0.001F, 1, "%.3g",
                            ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
         budget_.limit = limit;
     tooltip("how far the frame may be from that of the most accurate settings");
-    if (ImGui::Button("find the cheapest settings")) search_asked = budget_;
-    tooltip("takes some seconds, while the picture goes on; what is found is set");
-    if (state.can_undo) {
-        ImGui::SameLine();
-        undo_asked = ImGui::Button("undo");
-        tooltip("the settings as they were before the search");
-    }
-    wrappedText(state.search_answer);
+    if (ImGui::Button("Find the cheapest settings")) actions.search = budget_;
+    tooltip("Takes some seconds, while the picture goes on; what is found is set, and undo takes it back.");
+    if (!state.search_answer.empty()) wrappedText(state.search_answer);
 }
 
-void Panel::draw(Settings& settings, const PanelState& state) {
-    ImGui_ImplOpenGL3_NewFrame();
-    ImGui_ImplGlfw_NewFrame();
-    ImGui::NewFrame();
-    search_asked.reset();
-    stop_asked = undo_asked = false;
-    if (visible) {
-        const ImVec2 display = ImGui::GetIO().DisplaySize;
-        const float widest = std::max(display.x - 16, 1.0F);
-        const float highest = std::max(display.y - 16, 1.0F);
-        ImGui::SetNextWindowPos({8, 8}, ImGuiCond_FirstUseEver);
-        ImGui::SetNextWindowSizeConstraints({std::min(200 * scale_, widest), 0}, {widest, highest});
-        ImGui::SetNextWindowBgAlpha(0.72F);
-        ImGui::Begin("settings (H hides)", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
-        ImGui::PushItemWidth(140 * scale_);
-        ImGui::Text("frame %d%s, %.2f ms", state.frame, state.paused ? " (paused)" : "", state.frame_time_ms);
-        for (const Reading& reading : state.readings)
-            ImGui::Text("%s %.4g %s", reading.name.c_str(), reading.value, reading.unit.c_str());
-        // In a small window the list would hide the picture: there it starts closed.
-        ImGui::SetNextItemOpen(display.x > 560 * scale_, ImGuiCond_Once);
-        if (ImGui::CollapsingHeader("settings", ImGuiTreeNodeFlags_DefaultOpen)) settingsSection(settings);
-        if (!settings.dials().empty() && ImGui::CollapsingHeader("budget")) budgetSection(state);
-        pass_times_open_ = ImGui::CollapsingHeader("pass times");
-        if (pass_times_open_) {
-            for (const PassTime& pass : state.pass_times)
-                ImGui::Text("%-12s %8.3f ms", pass.name.c_str(), pass.time_ms);
-            ImGui::TextUnformatted(state.renderer.c_str());
+void Panel::timesSection(const PanelState& state, PanelActions& actions) {
+    bool waits = state.waits_for_display;
+    if (ImGui::Checkbox("Wait for the display", &waits)) actions.wait_for_display = waits;
+    tooltip("Vertical sync: no more frames than the display shows.");
+    float size = state.text_size;
+    ImGui::SetNextItemWidth(-8 * ImGui::GetFontSize());
+    ImGui::SliderFloat("Size of text", &size, 0.5F, 3, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    // Taken when let go: a panel that grows under the mouse cannot be aimed at.
+    static float held = 1;
+    if (ImGui::IsItemActive()) held = size;
+    if (ImGui::IsItemDeactivatedAfterEdit()) actions.text_size = held;
+    tooltip("Ctrl and plus, minus or 0.");
+    if (ImGui::BeginTable("times", 2, ImGuiTableFlags_NoSavedSettings)) {
+        for (const PassTime& pass : state.pass_times) {
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(pass.name.c_str());
+            ImGui::TableNextColumn();
+            ImGui::Text("%.3f ms", pass.time_ms);
         }
-        if (ImGui::CollapsingHeader("keys")) keysSection();
-        ImGui::PopItemWidth();
-        ImGui::End();
-        if (!state.message.empty()) messageLine(state.message);
+        ImGui::EndTable();
     }
-    close_popup_ = false;
-    ImGui::Render();
-    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    wrappedText(state.renderer);
+}
+
+PanelActions Panel::draw(const Rectangle& place, float pixels_per_unit, Settings& settings,
+                         const PanelState& state) {
+    PanelActions actions;
+    nextWindowAt(place, pixels_per_unit);
+    if (focus_) ImGui::SetNextWindowFocus();
+    focus_ = false;
+    ImGui::Begin("##panel", nullptr,
+                 ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
+    Ui::pushBold();
+    ImGui::TextUnformatted(rung_.c_str());
+    Ui::popFont();
+    ImGui::SameLine();
+    const char* clock = state.is_gpu_time ? "GPU" : "drawn in";
+    if (state.is_playing)
+        ImGui::TextDisabled("frame %d, %.0f fps, %s %.2f ms", state.frame, state.shown_per_s, clock,
+                            state.frame_time_ms);
+    else
+        ImGui::TextDisabled("frame %d, paused, %s %.2f ms", state.frame, clock, state.frame_time_ms);
+    for (const Reading& reading : state.readings)
+        ImGui::Text("%s %.4g %s", labelOf(reading.name).c_str(), reading.value, reading.unit.c_str());
+    presetsSection(settings, state, actions);
+    ImGui::Separator();
+    ImGui::BeginChild("##sections");
+    settingsSection(settings);
+    if (!settings.dials().empty() && ImGui::CollapsingHeader("Budget")) budgetSection(state, actions);
+    pass_times_open_ = ImGui::CollapsingHeader("Window and times");
+    if (pass_times_open_) timesSection(state, actions);
+    ImGui::EndChild();
+    ImGui::End();
+    return actions;
 }
 
 } // namespace gll

@@ -1,75 +1,82 @@
-// The panel over the picture: every setting, presets, reset, times and keys, made from the settings'
-// declarations.
+// The panel beside the picture: every setting in its group, presets, what differs from them, times and the
+// search within a budget, made from the settings' declarations.
 #pragma once
 
 #include "budget/budget.hpp"
+#include "window/layout.hpp"
+#include "window/pass_timer.hpp"
 
 #include <optional>
 #include <string>
 #include <vector>
 
-struct GLFWwindow;
-
 namespace gll {
-
-struct PassTime {
-    std::string name;
-    double time_ms = 0;
-};
 
 // What the panel shows beside the settings.
 struct PanelState {
     std::string renderer;
     int frame = 0; // 0: nothing rendered yet
-    bool paused = false;
+    bool is_playing = false;
+    double shown_per_s = 0;           // frames a second that reach the window
     double frame_time_ms = 0;         // of drawing, not of waiting for the display
+    bool is_gpu_time = false;         // else the wall's, of a renderer in software
     std::vector<PassTime> pass_times; // empty until asked for
     std::vector<Reading> readings;    // of the frame shown, where the rung has some
     double searching_s = 0;           // how long a search within a budget has been under way; 0: none is
-    bool can_undo = false;            // whether what a search found still stands, and can be taken back
     std::string search_answer;        // what the last search found, or why it did not
-    std::string message;              // what happened just now, such as a file written
+    bool can_undo = false;
+    bool can_redo = false;
+    bool waits_for_display = true; // vertical sync
+    float text_size = 1;           // of what the display wants
 };
+
+// What was asked for in the panel in the last draw().
+struct PanelActions {
+    std::optional<Budget> search;
+    bool stop_search = false;
+    bool undo = false;
+    bool redo = false;
+    bool copy_command = false;
+    bool show_help = false;
+    std::optional<bool> wait_for_display;
+    std::optional<float> text_size;
+};
+
+// The name of a setting for people: "Exposure (EV)" for exposure_ev.
+std::string labelOf(const std::string& name);
 
 class Panel {
   public:
-    // Made after the window's own callbacks are set, which Dear ImGui then passes events on to.
-    explicit Panel(GLFWwindow* window);
-    ~Panel();
-    Panel(const Panel&) = delete;
-    Panel& operator=(const Panel&) = delete;
+    // Presets are remembered; what a setting differs from is the preset that is nearest now.
+    Panel(std::string rung, Settings& settings);
 
-    // Draws over the default framebuffer, which must be bound. Changes settings as the person does.
-    void draw(Settings& settings, const PanelState& state);
+    // Changes settings as the person does.
+    PanelActions draw(const Rectangle& place, float pixels_per_unit, Settings& settings,
+                      const PanelState& state);
 
-    // Whether a button was pressed in the last draw(): to search within that budget, to stop the search, or
-    // to take back what it found.
-    std::optional<Budget> search_asked;
-    bool stop_asked = false;
-    bool undo_asked = false;
-
-    // Closes the list of choices that is open. False where none is.
-    bool closePopup();
-
-    bool visible = true;
-    bool wantsPassTimes() const { return visible && pass_times_open_; }
-    // Whether the mouse or keyboard is busy in the panel, so that they mean nothing to the scene.
-    bool hasMouse() const;
-    bool hasKeyboard() const;
+    bool wantsPassTimes() const { return pass_times_open_; }
+    void focus() { focus_ = true; } // for the keyboard, in the next draw()
 
   private:
+    struct Preset {
+        std::string name;
+        std::string help;
+        std::vector<double> values;
+    };
+    void presetsSection(Settings& settings, const PanelState& state, PanelActions& actions);
     void settingsSection(Settings& settings);
-    void widget(Setting& setting);
-    void budgetSection(const PanelState& state);
-    bool beginCombo(const char* label, const char* chosen) const;
-    void tooltip(const std::string& text) const;
-    void wrappedText(const std::string& text) const;
-    void messageLine(const std::string& text) const;
+    void table(const char* name, const std::vector<Setting*>& shown, const Settings& settings);
+    void row(Setting& setting, double preset_value, const std::string& why_idle);
+    void budgetSection(const PanelState& state, PanelActions& actions);
+    void timesSection(const PanelState& state, PanelActions& actions);
+    double presetValue(const Settings& settings, const Setting& setting) const;
 
+    std::string rung_;
+    std::vector<Preset> presets_;
+    std::size_t preset_ = 0; // the one that settings are marked to differ from
     Budget budget_{Budget::Kind::flip, 0.01};
     bool pass_times_open_ = false;
-    bool close_popup_ = false; // in the next draw()
-    float scale_ = 1;          // pixels per unit: 2 on most HiDPI displays
+    bool focus_ = false;
 };
 
 } // namespace gll

@@ -1,8 +1,17 @@
-// The window by GLFW: clock, keys, mouse, presenting and saving frames.
+// The window's loop: keys, mouse, presenting and saving frames, and what the panel asks for.
 #include "window/window.hpp"
 
 #include "rung/capture.hpp"
+#include "window/glfw_window.hpp"
+#include "window/help.hpp"
+#include "window/history.hpp"
+#include "window/layout.hpp"
 #include "window/panel.hpp"
+#include "window/pass_timer.hpp"
+#include "window/recorder.hpp"
+#include "window/timeline.hpp"
+#include "window/timeline_bar.hpp"
+#include "window/ui.hpp"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -10,7 +19,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 #include <optional>
 #include <stdexcept>
@@ -24,164 +32,47 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-std::string glfwReason() {
-    const char* text = nullptr;
-    glfwGetError(&text);
-    return text == nullptr ? "no reason given" : text;
-}
-
-bool isSet(const char* variable) {
-    const char* value = std::getenv(variable);
-    return value != nullptr && *value != '\0';
-}
-
-struct GlfwLibrary {
-    GlfwLibrary() {
-        // Asked for a display that nothing names, Wayland's library complains on stderr where there is no
-        // XDG_RUNTIME_DIR.
-        const bool wayland = isSet("WAYLAND_DISPLAY") || isSet("WAYLAND_SOCKET");
-        if (!wayland && !isSet("DISPLAY")) throw NoWindow("neither DISPLAY nor WAYLAND_DISPLAY is set");
-#ifdef GLFW_PLATFORM // GLFW 3.4, which otherwise tries Wayland first
-        if (!wayland) glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
-#endif
-        if (glfwInit() != GLFW_TRUE) throw NoWindow(glfwReason());
-    }
-    ~GlfwLibrary() { glfwTerminate(); }
-    GlfwLibrary(const GlfwLibrary&) = delete;
-    GlfwLibrary& operator=(const GlfwLibrary&) = delete;
-};
-
-class WindowContext final : public Context {
-  public:
-    WindowContext(const std::string& title, glm::ivec2 size) {
-        glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-        glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-        glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-        glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-        window_ = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
-        if (window_ == nullptr) throw NoWindow(glfwReason());
-        glfwMakeContextCurrent(window_);
-        glfwSwapInterval(1);
-        try {
-            load(glfwGetProcAddress);
-        } catch (...) {
-            glfwDestroyWindow(window_);
-            throw;
-        }
-    }
-    ~WindowContext() override { glfwDestroyWindow(window_); }
-    const char* kind() const override { return "window"; }
-    GLFWwindow* window() const { return window_; }
-
-  private:
-    GLFWwindow* window_ = nullptr;
-};
-
-// Frame numbers by the wall clock, 60 a second, from where they were last set; or standing still.
-class FrameClock {
-  public:
-    explicit FrameClock(int first_frame) : base_(first_frame) {}
-
-    int frame() const {
-        const double elapsed_s = paused_ ? 0 : secondsSince(start_);
-        return static_cast<int>(
-            std::min<double>(base_ + std::floor(elapsed_s * frames_per_second), max_frame));
-    }
-    bool paused() const { return paused_; }
-    void pause(bool paused) {
-        base_ = frame();
-        start_ = Clock::now();
-        paused_ = paused;
-    }
-    void step(int frames) {
-        pause(true);
-        base_ = std::clamp(base_ + frames, 1, max_frame);
-    }
-
-  private:
-    int base_;
-    Clock::time_point start_ = Clock::now();
-    bool paused_ = false;
-};
-
-// Times passes: on a GPU by its own clock, read one frame later; in software by waiting for each.
-class PassTimer final : public PassObserver {
-  public:
-    explicit PassTimer(bool software) : software_(software) {}
-    ~PassTimer() override { glDeleteQueries(static_cast<GLsizei>(queries_.size()), queries_.data()); }
-    PassTimer(const PassTimer&) = delete;
-    PassTimer& operator=(const PassTimer&) = delete;
-
-    // Before a frame: the times of the frame before.
-    std::vector<PassTime> begin() {
-        std::vector<PassTime> times = std::move(pending_);
-        pending_.clear();
-        if (!software_)
-            for (std::size_t i = 0; i < times.size(); ++i) {
-                GLuint64 elapsed_ns = 0;
-                glGetQueryObjectui64v(queries_[i], GL_QUERY_RESULT, &elapsed_ns);
-                times[i].time_ms = double(elapsed_ns) * 1e-6;
-            }
-        return times;
-    }
-    void before(const std::string&) override {
-        start_ = Clock::now();
-        if (software_) {
-            glFinish();
-            return;
-        }
-        if (pending_.size() == queries_.size()) {
-            queries_.push_back(0);
-            glGenQueries(1, &queries_.back());
-        }
-        glBeginQuery(GL_TIME_ELAPSED, queries_[pending_.size()]);
-    }
-    void after(const DrawnPass& pass) override {
-        software_ ? glFinish() : glEndQuery(GL_TIME_ELAPSED);
-        pending_.push_back({pass.name, secondsSince(start_) * 1e3});
-    }
-
-  private:
-    bool software_;
-    std::vector<GLuint> queries_;
-    std::vector<PassTime> pending_;
-    Clock::time_point start_;
-};
+constexpr glm::ivec2 usual_window(1280, 720);
 
 // The running window: what the callbacks change and the loop reads.
 class RungWindow {
   public:
-    RungWindow(const FrameRequest& request, const RungInfo& info, Settings& settings)
+    RungWindow(const FrameRequest& request, std::optional<glm::ivec2> picture, const RungInfo& info,
+               Settings& settings)
         : info_(info), settings_(settings), given_(request.files),
-          context_(info.name + " - GL Ladder", request.size), renderer_(context_, info, request.files),
-          clock_(request.first_frame), timer_(context_.info().is_software) {
+          context_(info.name + " - GL Ladder", usual_window), renderer_(context_, info, request.files),
+          timeline_(request.first_frame), timer_(context_.info().is_software), panel_(info.name, settings),
+          help_(Resources(), info.name), history_(values()) {
         glfwSetWindowUserPointer(context_.window(), this);
         glfwSetKeyCallback(context_.window(), onKey);
         glfwSetCursorPosCallback(context_.window(), onCursor);
         glfwSetMouseButtonCallback(context_.window(), onButton);
         glfwSetScrollCallback(context_.window(), onScroll);
-        panel_.emplace(context_.window());
+        ui_.emplace(context_);
+        if (picture) setPictureSize(*picture);
         state_.renderer = context_.info().renderer;
+        state_.is_gpu_time = false;
         showWarnings();
     }
 
     void loop() {
         while (glfwWindowShouldClose(context_.window()) == GLFW_FALSE) {
-            glm::ivec2 size(0);
-            glfwGetFramebufferSize(context_.window(), &size.x, &size.y);
+            const glm::ivec2 size = context_.sizePx();
             if (size.x < 1 || size.y < 1 || glfwGetWindowAttrib(context_.window(), GLFW_ICONIFIED) != 0) {
                 glfwWaitEvents(); // minimised: nothing to draw until it is back
                 continue;
             }
             const Clock::time_point start = Clock::now();
-            renderIfChanged(size);
+            timeline_.advance(secondsSince(start_));
+            layout_ = layOut(size, ui_->emPx(), wish_);
+            renderIfChanged(layout_.picture.size);
             present(size);
-            if (save_asked_) save(size);
+            if (save_asked_) save();
             // Where the display does not hold the loop to its rate (no vertical sync, or nothing moves), wait
             // for events instead of spinning.
             const double rest_s =
-                (clock_.paused() ? 1.0 / 30 : 1.0 / frames_per_second) - secondsSince(start);
-            if (rest_s > 1e-3)
+                (timeline_.isPlaying() ? 1.0 / frames_per_second : 1.0 / 30) - secondsSince(start);
+            if (state_.waits_for_display && rest_s > 1e-3)
                 glfwWaitEventsTimeout(rest_s);
             else
                 glfwPollEvents();
@@ -193,20 +84,61 @@ class RungWindow {
         return *static_cast<RungWindow*>(glfwGetWindowUserPointer(window));
     }
 
-    static void onKey(GLFWwindow* window, int key, int, int action, int) {
+    static void onKey(GLFWwindow* window, int key, int, int action, int modifiers) {
+        if (action == GLFW_RELEASE) return;
         RungWindow& that = self(window);
-        if (action == GLFW_RELEASE || that.panel_->hasKeyboard()) return;
-        if (key == GLFW_KEY_PERIOD) that.clock_.step(1);
-        if (key == GLFW_KEY_COMMA) that.clock_.step(-1);
-        if (action == GLFW_REPEAT) return;
-        if (key == GLFW_KEY_SPACE) that.clock_.pause(!that.clock_.paused());
-        if (key == GLFW_KEY_R) that.resetCamera();
-        if (key == GLFW_KEY_P) that.save_asked_ = true;
-        if (key == GLFW_KEY_H) that.panel_->visible = !that.panel_->visible;
-        if (key == GLFW_KEY_ESCAPE && !that.panel_->closePopup()) glfwSetWindowShouldClose(window, GLFW_TRUE);
+        const bool is_repeated = action == GLFW_REPEAT;
+        if ((modifiers & GLFW_MOD_CONTROL) != 0)
+            that.controlKey(key, (modifiers & GLFW_MOD_SHIFT) != 0);
+        else if (!is_repeated && that.functionKey(key))
+            return;
+        else if (!that.ui_->hasKeyboard())
+            that.plainKey(key, is_repeated);
     }
 
-    // Where on the window's width the divider of two compared methods is; nothing where none is shown.
+    void controlKey(int key, bool with_shift) {
+        if (ui_->isTyping()) return;
+        if (key == GLFW_KEY_Z) with_shift ? redo() : undo();
+        if (key == GLFW_KEY_Y) redo();
+        if (key == GLFW_KEY_C) copyCommand();
+        if (key == GLFW_KEY_EQUAL || key == GLFW_KEY_KP_ADD) setTextSize(state_.text_size * 1.125F);
+        if (key == GLFW_KEY_MINUS || key == GLFW_KEY_KP_SUBTRACT) setTextSize(state_.text_size / 1.125F);
+        if (key == GLFW_KEY_0 || key == GLFW_KEY_KP_0) setTextSize(1);
+    }
+
+    // Those that mean the same wherever the keyboard is.
+    bool functionKey(int key) {
+        if (key == GLFW_KEY_F1)
+            help_.visible = !help_.visible;
+        else if (key == GLFW_KEY_F11)
+            context_.setFullScreen(!context_.isFullScreen());
+        else if (key == GLFW_KEY_ESCAPE)
+            escape();
+        else
+            return false;
+        return true;
+    }
+
+    void escape() {
+        if (ui_->escape()) return;
+        if (help_.visible)
+            help_.visible = false;
+        else
+            glfwSetWindowShouldClose(context_.window(), GLFW_TRUE);
+    }
+
+    void plainKey(int key, bool is_repeated) {
+        if (key == GLFW_KEY_PERIOD) timeline_.step(1);
+        if (key == GLFW_KEY_COMMA) timeline_.step(-1);
+        if (is_repeated) return;
+        if (key == GLFW_KEY_SPACE) timeline_.play(!timeline_.isPlaying());
+        if (key == GLFW_KEY_R) resetCamera();
+        if (key == GLFW_KEY_P) save_asked_ = true;
+        if (key == GLFW_KEY_H) wish_.panel = !wish_.panel;
+        if (key == GLFW_KEY_TAB) panel_.focus();
+    }
+
+    // Where on the picture's width the divider of two compared methods is; nothing where none is shown.
     std::optional<double> divider() const {
         std::optional<double> place;
         bool is_shown = false;
@@ -217,42 +149,68 @@ class RungWindow {
         return is_shown ? place : std::nullopt;
     }
 
-    static double width(GLFWwindow* window) { // in the cursor's units
-        int width = 1;
-        glfwGetWindowSize(window, &width, nullptr);
-        return std::max(width, 1);
+    // From the cursor's place, in the display's units, to pixels of the window.
+    glm::dvec2 cursorPx() const { return cursor_ * double(context_.pixelsPerUnit()); }
+
+    // Of the picture's width, at the cursor.
+    double cursorOnWidth() const {
+        return (cursorPx().x - layout_.picture.corner.x) / std::max(layout_.picture.size.x, 1);
     }
 
     static void onButton(GLFWwindow* window, int button, int action, int) {
-        constexpr double reach = 10;
         RungWindow& that = self(window);
         if (button != GLFW_MOUSE_BUTTON_LEFT) return;
-        const auto divider = that.divider();
-        that.drags_divider_ = action == GLFW_PRESS && divider && !that.panel_->hasMouse() &&
-                              std::abs(that.cursor_x_ - *divider * width(window)) < reach;
+        that.drags_ = action == GLFW_PRESS ? that.dragAt() : Drag::nothing;
+    }
+
+    enum class Drag { nothing, camera, divider, panel_edge };
+    Drag dragAt() const {
+        const double reach_px = 0.6 * ui_->emPx();
+        if (layout_.panel.isShown() && std::abs(cursorPx().x - layout_.panel.size.x) < reach_px / 2)
+            return Drag::panel_edge;
+        if (ui_->hasMouse()) return Drag::nothing;
+        const auto place = divider();
+        if (place && std::abs(cursorOnWidth() - *place) * layout_.picture.size.x < reach_px)
+            return Drag::divider;
+        return Drag::camera;
     }
 
     static void onCursor(GLFWwindow* window, double x, double y) {
         RungWindow& that = self(window);
-        const double dx = x - that.cursor_x_;
-        const double dy = y - that.cursor_y_;
-        that.cursor_x_ = x;
-        that.cursor_y_ = y;
-        if (glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_LEFT) != GLFW_PRESS || that.panel_->hasMouse())
-            return;
-        if (that.drags_divider_) {
-            that.nudge(Setting::Role::divider, [&](double) { return x / width(window); });
-            return;
+        const glm::dvec2 moved = glm::dvec2(x, y) - that.cursor_;
+        that.cursor_ = {x, y};
+        switch (that.drags_) {
+        case Drag::nothing:
+            that.showEdge();
+            break;
+        case Drag::panel_edge:
+            that.wish_.panel_em = static_cast<float>(that.cursorPx().x) / that.ui_->emPx();
+            break;
+        case Drag::divider:
+            that.nudge(Setting::Role::divider, [&](double) { return that.cursorOnWidth(); });
+            break;
+        case Drag::camera: {
+            constexpr double degrees_per_unit = 0.4;
+            that.nudge(Setting::Role::orbit_yaw,
+                       [&](double v) { return std::remainder(v + moved.x * degrees_per_unit, 360); });
+            that.nudge(Setting::Role::orbit_pitch, [&](double v) { return v + moved.y * degrees_per_unit; });
+            break;
         }
-        constexpr double degrees_per_unit = 0.4;
-        that.nudge(Setting::Role::orbit_yaw,
-                   [&](double v) { return std::remainder(v + dx * degrees_per_unit, 360); });
-        that.nudge(Setting::Role::orbit_pitch, [&](double v) { return v + dy * degrees_per_unit; });
+        }
+    }
+
+    // The cursor says where the panel can be dragged wide.
+    void showEdge() {
+        const bool is_there = dragAt() == Drag::panel_edge;
+        if (is_there == shows_edge_) return;
+        shows_edge_ = is_there;
+        ui_->keepCursor(is_there);
+        context_.showResizeCursor(is_there);
     }
 
     static void onScroll(GLFWwindow* window, double, double steps) {
         RungWindow& that = self(window);
-        if (that.panel_->hasMouse()) return;
+        if (that.ui_->hasMouse()) return;
         that.nudge(Setting::Role::orbit_zoom, [&](double v) { return v * std::pow(1.1, steps); });
     }
 
@@ -272,94 +230,184 @@ class RungWindow {
                 if (setting.role == role) setting.value = setting.default_value;
     }
 
+    History::State values() const {
+        History::State values;
+        for (const Setting& setting : settings_.all())
+            values.push_back(setting.value);
+        return values;
+    }
+    void setValues(const std::optional<History::State>& values) {
+        if (!values) return;
+        for (std::size_t i = 0; i < values->size(); ++i)
+            settings_.all()[i].value = (*values)[i];
+    }
+    void undo() { setValues(history_.undo(values())); }
+    void redo() { setValues(history_.redo(values())); }
+
+    void setTextSize(float size) { state_.text_size = std::clamp(size, 0.5F, 3.0F); }
+
+    void setPictureSize(glm::ivec2 picture) {
+        const glm::ivec2 size = windowFor(picture, ui_->emPx(), wish_);
+        const float pixels_per_unit = context_.pixelsPerUnit();
+        glfwSetWindowSize(context_.window(),
+                          static_cast<int>(std::lround(static_cast<float>(size.x) / pixels_per_unit)),
+                          static_cast<int>(std::lround(static_cast<float>(size.y) / pixels_per_unit)));
+    }
+
     void renderIfChanged(glm::ivec2 size) {
-        const int frame = clock_.frame();
+        const int frame = timeline_.frame();
         const std::vector<std::string> sets_now = settings_.changed();
-        const bool times = panel_->wantsPassTimes();
+        const bool times = layout_.panel.isShown() && panel_.wantsPassTimes();
         if (frame == state_.frame && size == rendered_size_ && sets_now == rendered_sets_ && !times) return;
         const Clock::time_point start = Clock::now();
         if (times) state_.pass_times = timer_.begin();
-        renderer_.render(frame, size, times ? &timer_ : nullptr);
+        rendered_size_ = size;
+        rendered_sets_ = sets_now;
+        state_.frame = frame;
+        readings_are_current_ = false;
+        try {
+            renderer_.render(frame, size, times ? &timer_ : nullptr);
+            frame_error_.clear();
+        } catch (const std::bad_alloc&) {
+            frame_error_ = "out of memory; make the window smaller, or ask for less";
+        } catch (const std::exception& error) {
+            frame_error_ =
+                error.what(); // such as a shader that does not compile: the show goes on without it
+        }
         if (context_.info().is_software) glFinish();
         showWarnings();
         state_.frame_time_ms = secondsSince(start) * 1e3;
-        state_.frame = frame;
-        rendered_size_ = size;
-        rendered_sets_ = sets_now;
-        readings_are_current_ = false;
+        const double interval_s = secondsSince(last_rendered_);
+        last_rendered_ = Clock::now();
+        state_.shown_per_s += 0.15 * (1 / std::max(interval_s, 1e-4) - state_.shown_per_s);
     }
 
     // The first of them: all are on the terminal, and a panel full of them would hide the picture.
     void showWarnings() {
         const std::vector<std::string> lines = renderer_.takeWarnings();
         if (lines.empty()) return;
-        state_.message = "warning: " + lines.front();
-        if (lines.size() > 1) state_.message += "\nand more, on the terminal";
+        show("warning: " + lines.front() + (lines.size() > 1 ? "\nand more, on the terminal" : ""));
     }
 
     void present(glm::ivec2 size) {
-        glBindFramebuffer(GL_READ_FRAMEBUFFER, renderer_.presented().id());
-        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-        glDisable(GL_FRAMEBUFFER_SRGB); // the frame is encoded already
-        glDisable(GL_SCISSOR_TEST);
-        glBlitFramebuffer(0, 0, size.x, size.y, 0, 0, size.x, size.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-        glBindFramebuffer(GL_FRAMEBUFFER, 0);
-        glViewport(0, 0, size.x, size.y);
-        state_.paused = clock_.paused();
-        if (panel_->visible && !readings_are_current_) { // reading waits for the frame: only for who looks
-            state_.readings = renderer_.readings();
+        presentPicture(size);
+        state_.is_playing = timeline_.isPlaying();
+        if (layout_.panel.isShown() && !readings_are_current_ && frame_error_.empty()) {
+            state_.readings = renderer_.readings(); // waits for the frame: only for who looks
             readings_are_current_ = true;
         }
         state_.searching_s = search_ ? secondsSince(search_start_) : 0;
-        if (secondsSince(message_start_) > message_length_s_) state_.message.clear();
-        state_.can_undo = !found_.empty() && stands(found_.back());
-        panel_->draw(settings_, state_);
-        attendSearch(size);
+        const History::State now = values();
+        history_.observe(now, secondsSince(start_), isHeld());
+        state_.can_undo = history_.canUndo(now);
+        state_.can_redo = history_.canRedo(now);
+        ui_->begin(state_.text_size);
+        const float pixels_per_unit = context_.pixelsPerUnit();
+        if (layout_.panel.isShown()) attend(panel_.draw(layout_.panel, pixels_per_unit, settings_, state_));
+        if (layout_.timeline.isShown()) {
+            const RecordingState recording{recorder_.isRecording(),
+                                           recorder_.isRecording() ? recorder_.done() : 0, recorder_.of()};
+            const auto asked = timeline_bar_.draw(layout_.timeline, pixels_per_unit, timeline_, recording);
+            if (asked.record) record(*asked.record);
+            if (asked.cancel_recording) recorder_.cancel();
+        }
+        help_.draw(layout_.picture, pixels_per_unit);
+        if (const auto said = recorder_.poll()) say(*said);
+        if (!frame_error_.empty())
+            messageOver(layout_.picture, pixels_per_unit, frame_error_, true);
+        else if (secondsSince(message_start_) < message_length_s_ && wish_.panel)
+            messageOver(layout_.picture, pixels_per_unit, message_);
+        ui_->end();
+        attendSearch();
         context_.debugLog().check("OpenGL, presenting");
         glfwSwapBuffers(context_.window());
     }
 
+    void presentPicture(glm::ivec2 size) {
+        const Rectangle& picture = layout_.picture;
+        const int bottom = size.y - picture.corner.y - picture.size.y;
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, renderer_.presented().id());
+        glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+        glDisable(GL_FRAMEBUFFER_SRGB); // the frame is encoded already
+        glDisable(GL_SCISSOR_TEST);
+        glBlitFramebuffer(0, 0, picture.size.x, picture.size.y, picture.corner.x, bottom,
+                          picture.corner.x + picture.size.x, bottom + picture.size.y, GL_COLOR_BUFFER_BIT,
+                          GL_NEAREST);
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        glViewport(0, 0, size.x, size.y);
+    }
+
+    bool isHeld() const {
+        return glfwGetMouseButton(context_.window(), GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
+    }
+
+    void attend(const PanelActions& asked) {
+        if (asked.undo) undo();
+        if (asked.redo) redo();
+        if (asked.copy_command) copyCommand();
+        if (asked.show_help) help_.visible = !help_.visible;
+        if (asked.text_size) setTextSize(*asked.text_size);
+        if (asked.stop_search) search_.reset();
+        if (asked.search) startSearch(*asked.search);
+        if (asked.wait_for_display) {
+            state_.waits_for_display = *asked.wait_for_display;
+            glfwSwapInterval(state_.waits_for_display ? 1 : 0);
+        }
+    }
+
     // Searches within a budget in a process of its own, and takes over what it finds.
-    void attendSearch(glm::ivec2 size) {
-        if (panel_->stop_asked) search_.reset();
-        if (panel_->undo_asked) undoSearch();
-        if (panel_->search_asked) startSearch(*panel_->search_asked, size);
+    void attendSearch() {
         if (!search_) return;
         const std::optional<ProcessResult> result = search_->poll();
         if (!result) return;
         search_.reset();
         const BudgetAnswer answer = budgetAnswer(*result);
-        std::vector<Change> found;
-        for (const auto& [name, value] : answer.set) {
-            found.push_back({name, settings_.at(name).text(), value});
+        for (const auto& [name, value] : answer.set)
             settings_.set(name, value);
-        }
-        if (!found.empty()) found_.push_back(found);
         state_.search_answer = answer.text;
         print(answer.text);
     }
 
-    struct Change {
-        std::string setting;
-        std::string before;
-        std::string found;
-    };
-
-    bool stands(const std::vector<Change>& changes) const {
-        return std::all_of(changes.begin(), changes.end(), [&](const Change& change) {
-            return settings_.at(change.setting).text() == change.found;
-        });
+    void startSearch(const Budget& budget) {
+        try {
+            search_.emplace(budgetCommand(budget, shownFrame(), headlessContext()));
+            search_start_ = Clock::now();
+            state_.search_answer.clear();
+        } catch (const std::runtime_error& error) {
+            state_.search_answer = error.what(); // as for a frame that cannot be saved
+        }
     }
 
-    void undoSearch() {
-        std::string text = "undone:";
-        for (const Change& change : found_.back()) {
-            settings_.set(change.setting, change.before);
-            text += " --set " + change.setting + "=" + change.before;
+    // What asks for the picture that is shown: the panel may have changed a setting since.
+    FrameRequest shownFrame() const {
+        FrameRequest request;
+        request.size = rendered_size_;
+        request.first_frame = request.last_frame = state_.frame;
+        request.sets = rendered_sets_;
+        request.files = given_;
+        return request;
+    }
+
+    // Where a GPU draws, frames and costs are the GPU's.
+    const char* headlessContext() const { return context_.info().is_software ? "" : "egl"; }
+
+    void copyCommand() {
+        FrameRequest request = shownFrame();
+        request.out = freeStem() + ".png";
+        const std::string line = shellLine(headlessCommand(request, headlessContext()));
+        glfwSetClipboardString(context_.window(), line.c_str());
+        say("copied: " + line);
+    }
+
+    void record(const Timeline::Loop& range) {
+        FrameRequest request = shownFrame();
+        request.first_frame = range.first;
+        request.last_frame = range.last;
+        try {
+            recorder_.start(request, info_.name, headlessContext());
+        } catch (const std::runtime_error& error) {
+            say(error.what());
         }
-        found_.pop_back();
-        state_.search_answer = text;
-        print(text);
     }
 
     // For who started the program in a terminal.
@@ -368,51 +416,38 @@ class RungWindow {
         std::fflush(stdout);
     }
 
-    // In the panel too, as long as it takes to read.
-    void say(const std::string& message) {
-        state_.message = message;
+    // As long as it takes to read.
+    void show(const std::string& message) {
+        message_ = message;
         message_length_s_ = 4 + 0.05 * static_cast<double>(message.size());
         message_start_ = Clock::now();
+    }
+
+    void say(const std::string& message) {
+        show(message);
         print(message);
     }
 
-    void startSearch(const Budget& budget, glm::ivec2 size) {
-        FrameRequest request;
-        request.size = size;
-        request.first_frame = request.last_frame = state_.frame;
-        request.sets = settings_.changed();
-        request.files = given_;
-        try {
-            search_.emplace(budgetCommand(budget, request, headlessContext()));
-            search_start_ = Clock::now();
-            state_.search_answer.clear();
-        } catch (const std::runtime_error& error) {
-            state_.search_answer = error.what(); // as for a frame that cannot be saved
-        }
-    }
-
-    // Where a GPU draws, frames and costs are the GPU's.
-    const char* headlessContext() const { return context_.info().is_software ? "" : "egl"; }
-
-    // The present frame into the current folder, and beside it the command line that renders it again, into
-    // yet another file: nothing is ever overwritten.
-    void save(glm::ivec2 size) {
-        save_asked_ = false;
+    // A file's name without its ending that nothing in the current folder has: nothing is ever overwritten.
+    std::string freeStem() const {
         const auto isTaken = [](const std::string& stem) {
             return std::filesystem::exists(stem + ".png") || std::filesystem::exists(stem + ".txt") ||
                    std::filesystem::exists(stem + "_again.png");
         };
+        const std::string first = info_.name + "_frame_" + std::to_string(state_.frame);
+        std::string stem = first;
+        for (int i = 2; isTaken(stem); ++i)
+            stem = first + "_" + std::to_string(i);
+        return stem;
+    }
+
+    // The present frame into the current folder, and beside it the command line that renders it again, into
+    // yet another file.
+    void save() {
+        save_asked_ = false;
         try {
-            const std::string first = info_.name + "_frame_" + std::to_string(state_.frame);
-            std::string stem = first;
-            for (int i = 2; isTaken(stem); ++i)
-                stem = first + "_" + std::to_string(i);
-            FrameRequest request;
-            request.size = size;
-            request.first_frame = request.last_frame = state_.frame;
-            // What the frame was rendered with: the panel may have changed a setting since.
-            request.sets = rendered_sets_;
-            request.files = given_;
+            const std::string stem = freeStem();
+            FrameRequest request = shownFrame();
             request.out = stem + "_again.png";
             const std::string line = shellLine(headlessCommand(request, headlessContext()));
 
@@ -433,29 +468,40 @@ class RungWindow {
     GlfwLibrary library_;
     WindowContext context_;
     Renderer renderer_;
-    FrameClock clock_;
+    Timeline timeline_;
     PassTimer timer_;
-    std::optional<Panel> panel_;
+    Panel panel_;
+    TimelineBar timeline_bar_;
+    Help help_;
+    History history_;
+    Recorder recorder_;
+    std::optional<Ui> ui_;
+    LayoutWish wish_;
+    Layout layout_;
     PanelState state_;
     glm::ivec2 rendered_size_{0};
     std::vector<std::string> rendered_sets_;
+    std::string frame_error_; // why the frame could not be drawn
     bool readings_are_current_ = false;
     std::optional<Process> search_; // for the cheapest settings within a budget
     Clock::time_point search_start_;
-    std::vector<std::vector<Change>> found_; // what searches changed and undo takes back, the last at the end
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point last_rendered_ = start_;
+    std::string message_;
     Clock::time_point message_start_;
     double message_length_s_ = 0;
     bool save_asked_ = false;
-    bool drags_divider_ = false;
-    double cursor_x_ = 0;
-    double cursor_y_ = 0;
+    Drag drags_ = Drag::nothing;
+    bool shows_edge_ = false;
+    glm::dvec2 cursor_{0};
 };
 
 } // namespace
 
-int runWindow(const FrameRequest& request, const RungInfo& info, Settings& settings) {
+int runWindow(const FrameRequest& request, std::optional<glm::ivec2> picture, const RungInfo& info,
+              Settings& settings) {
     request.applyTo(settings);
-    RungWindow(request, info, settings).loop();
+    RungWindow(request, picture, info, settings).loop();
     return 0;
 }
 

@@ -1,8 +1,9 @@
-// A rung in a window: the frame clock, the keys and the mouse, and the panel.
+// A rung in a window: the frame clock, the keys and the mouse, and what is shown beside the picture.
 #pragma once
 
 #include "rung/request.hpp"
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -17,8 +18,9 @@ struct NoWindow : std::runtime_error {
     std::string reason;
 };
 
-// Opens a window of the size asked for and renders until it is closed. Throws NoWindow before anything was
-// drawn. Returns 0.
-int runWindow(const FrameRequest& request, const RungInfo& info, Settings& settings);
+// Opens a window and renders until it is closed. picture: the size of the picture to begin with; without it,
+// the window has 1280x720. Throws NoWindow before anything was drawn. Returns 0.
+int runWindow(const FrameRequest& request, std::optional<glm::ivec2> picture, const RungInfo& info,
+              Settings& settings);
 
 } // namespace gll

@@ -43,6 +43,8 @@ struct HdrOptions {
         all.role(Setting::Role::shows_divider, {"compare"});
         all.role(Setting::Role::divider, {"split"});
         all.role(Setting::Role::other_side, {"right_format", "right_tone_map", "right_exposure_ev"});
+        all.group(Setting::Group::look, {"view", "brightness"});
+        all.needs({"split", "right_format", "right_tone_map", "right_exposure_ev"}, {{"compare", {"on"}}});
         all.dial({"format", {"rgba32f", "rgba16f", "r11f_g11f_b10f", "rgb10_a2", "rgba8"}});
         all.preset({"recommended", "the tone map that turns hues least", {{"tone_map", "pbr_neutral"}}});
     }

@@ -29,6 +29,8 @@ struct ToneMapOptions {
           encode(settings.choice("encode", default_encode, {encodings.begin(), encodings.end()},
                                  "transfer function for the display")) {
         settings.shared("01_hdr", {"exposure_ev", "tone_map", "white_point", "encode"});
+        settings.group(Setting::Group::tone, {"exposure_ev", "tone_map", "white_point", "encode"});
+        settings.needs({"white_point"}, {{"tone_map", {"reinhard_extended"}}});
     }
 
     // For shaders that include lib/tone_map.glsl and lib/encode.glsl.

@@ -30,6 +30,7 @@ struct AutoExposureRungOptions {
     OrbitSettings orbit{all};
 
     AutoExposureRungOptions() {
+        all.at("white_point").needs = {{{"tone_map", {"reinhard_extended"}}, {"reduction", {"mipmap_r16"}}}};
         all.dial({"reduction", {"area", "histogram", "mipmap_r16f", "mipmap_r16"}});
         all.preset({"recommended",
                     "the reduction that is right at every size: the default already",

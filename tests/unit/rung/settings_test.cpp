@@ -57,6 +57,35 @@ TEST_F(SettingsTest, aWholeNumberTakesNoFraction) {
     EXPECT_EQ(int(levels), 2);
 }
 
+TEST_F(SettingsTest, aSettingSaysWithWhichOthersItHasAnEffect) {
+    const Setting& knee_setting = all.at("knee");
+    all.needs({"knee", "levels"}, {{"bloom", {"on"}}});
+    all.needs({"knee"}, {{"down_filter", {"13tap", "tent-2"}}, {"levels", {"1"}}});
+    EXPECT_EQ(all.whyIdle(knee_setting), "only with down_filter = 13tap or tent-2, or levels = 1");
+    all.set("levels", "1");
+    EXPECT_EQ(all.whyIdle(knee_setting), "");
+    all.set("levels", "5");
+    all.set("down_filter", "tent-2");
+    EXPECT_EQ(all.whyIdle(knee_setting), "");
+    all.set("bloom", "off");
+    EXPECT_EQ(all.whyIdle(knee_setting), "only with bloom = on");
+    EXPECT_EQ(all.whyIdle(all.at("bloom")), "");
+}
+
+TEST_F(SettingsTest, aNeedThatOnlyAnIdleSettingMeetsIsNotMet) {
+    all.needs({"levels"}, {{"bloom", {"on"}}});
+    all.needs({"knee"}, {{"levels", {"5"}}});
+    all.set("bloom", "off");
+    EXPECT_EQ(all.whyIdle(all.at("knee")), "only with bloom = on");
+}
+
+TEST_F(SettingsTest, aNeedOfWhatIsNotDeclaredFailsAtOnce) {
+    EXPECT_NE(messageOf<UsageError>([&] { all.needs({"knee"}, {{"blom", {"on"}}}); }), "");
+    EXPECT_NE(messageOf<UsageError>([&] { all.needs({"knee"}, {{"bloom", {"maybe"}}}); }), "");
+    EXPECT_NE(messageOf<UsageError>([&] { all.needs({"kne"}, {{"bloom", {"on"}}}); }), "");
+    EXPECT_TRUE(bloom);
+}
+
 TEST_F(SettingsTest, togglesTakeTheUsualWordsAndNoOther) {
     for (const char* text : {"on", "true", "yes", "1"}) {
         all.set("bloom", "off");

@@ -1,0 +1,50 @@
+// Dividing the window.
+#include "window/layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gll {
+namespace {
+
+constexpr float narrowest_panel_em = 15;
+constexpr float lowest_strip_em = 5;
+
+int pixels(float ems, float em) { return static_cast<int>(std::lround(ems * em)); }
+
+} // namespace
+
+Layout layOut(glm::ivec2 window, float em, const LayoutWish& wish) {
+    Layout layout;
+    layout.picture = {{0, 0}, window};
+    if (!wish.panel) return layout; // all of it goes with the panel
+    const int widest = static_cast<int>(static_cast<float>(window.x) * 0.6F);
+    const int narrowest = pixels(narrowest_panel_em, em);
+    if (widest < narrowest) return layout;
+    const int panel = std::clamp(pixels(wish.panel_em, em), narrowest, widest);
+    layout.panel = {{0, 0}, {panel, window.y}};
+    layout.picture = {{panel, 0}, {window.x - panel, window.y}};
+    const auto takeFromBelow = [&](int height) {
+        layout.picture.size.y -= height;
+        return Rectangle{{panel, layout.picture.size.y}, {layout.picture.size.x, height}};
+    };
+    const int bar = pixels(wish.timeline_em, em);
+    if (window.y < 4 * bar) return layout;
+    layout.timeline = takeFromBelow(bar);
+    const int tallest = window.y / 2 - bar;
+    if (wish.strip && tallest >= pixels(lowest_strip_em, em))
+        layout.strip =
+            takeFromBelow(std::clamp(pixels(wish.strip_em, em), pixels(lowest_strip_em, em), tallest));
+    return layout;
+}
+
+glm::ivec2 windowFor(glm::ivec2 picture, float em, const LayoutWish& wish) {
+    if (!wish.panel) return picture;
+    glm::ivec2 size = picture;
+    size.x += pixels(std::max(wish.panel_em, narrowest_panel_em), em);
+    size.y += pixels(wish.timeline_em, em);
+    if (wish.strip) size.y += pixels(wish.strip_em, em);
+    return size;
+}
+
+} // namespace gll
