@@ -23,7 +23,7 @@ struct LayoutWish {
     bool panel = true;
     float panel_em = 22;
     bool strip = false; // of the passes' targets
-    float strip_em = 9;
+    float strip_em = 11;
     float timeline_em = 2;
 };
 

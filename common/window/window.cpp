@@ -5,6 +5,7 @@
 #include "window/glfw_window.hpp"
 #include "window/help.hpp"
 #include "window/history.hpp"
+#include "window/inspector.hpp"
 #include "window/layout.hpp"
 #include "window/panel.hpp"
 #include "window/pass_timer.hpp"
@@ -33,6 +34,25 @@ double secondsSince(Clock::time_point start) {
 }
 
 constexpr glm::ivec2 usual_window(1280, 720);
+
+// Tells several, in their order.
+class Observers final : public PassObserver {
+  public:
+    void add(PassObserver& observer) { observers_.push_back(&observer); }
+    PassObserver* orNone() { return observers_.empty() ? nullptr : this; }
+
+    void before(const std::string& pass) override {
+        for (PassObserver* observer : observers_)
+            observer->before(pass);
+    }
+    void after(const DrawnPass& pass) override {
+        for (PassObserver* observer : observers_)
+            observer->after(pass);
+    }
+
+  private:
+    std::vector<PassObserver*> observers_;
+};
 
 // The running window: what the callbacks change and the loop reads.
 class RungWindow {
@@ -123,6 +143,8 @@ class RungWindow {
         if (ui_->escape()) return;
         if (help_.visible)
             help_.visible = false;
+        else if (isInspecting())
+            inspector_.select(std::nullopt);
         else
             glfwSetWindowShouldClose(context_.window(), GLFW_TRUE);
     }
@@ -135,6 +157,7 @@ class RungWindow {
         if (key == GLFW_KEY_R) resetCamera();
         if (key == GLFW_KEY_P) save_asked_ = true;
         if (key == GLFW_KEY_H) wish_.panel = !wish_.panel;
+        if (key == GLFW_KEY_I) wish_.strip = !wish_.strip;
         if (key == GLFW_KEY_TAB) panel_.focus();
     }
 
@@ -163,13 +186,14 @@ class RungWindow {
         that.drags_ = action == GLFW_PRESS ? that.dragAt() : Drag::nothing;
     }
 
-    enum class Drag { nothing, camera, divider, panel_edge };
+    enum class Drag { nothing, camera, divider, panel_edge, inspected };
     Drag dragAt() const {
         const double reach_px = 0.6 * ui_->emPx();
         if (layout_.panel.isShown() && std::abs(cursorPx().x - layout_.panel.size.x) < reach_px / 2)
             return Drag::panel_edge;
         if (ui_->hasMouse()) return Drag::nothing;
         const auto place = divider();
+        if (isInspecting()) return Drag::inspected;
         if (place && std::abs(cursorOnWidth() - *place) * layout_.picture.size.x < reach_px)
             return Drag::divider;
         return Drag::camera;
@@ -188,6 +212,9 @@ class RungWindow {
             break;
         case Drag::divider:
             that.nudge(Setting::Role::divider, [&](double) { return that.cursorOnWidth(); });
+            break;
+        case Drag::inspected:
+            that.inspector_.drag(moved * double(that.context_.pixelsPerUnit()));
             break;
         case Drag::camera: {
             constexpr double degrees_per_unit = 0.4;
@@ -211,6 +238,7 @@ class RungWindow {
     static void onScroll(GLFWwindow* window, double, double steps) {
         RungWindow& that = self(window);
         if (that.ui_->hasMouse()) return;
+        if (that.isInspecting()) return that.inspector_.zoom(steps, that.cursorPx());
         that.nudge(Setting::Role::orbit_zoom, [&](double v) { return v * std::pow(1.1, steps); });
     }
 
@@ -254,11 +282,26 @@ class RungWindow {
                           static_cast<int>(std::lround(static_cast<float>(size.y) / pixels_per_unit)));
     }
 
+    bool isInspecting() const { return layout_.strip.isShown() && inspector_.isInspecting(); }
+
+    // What fits between the strip's lines of text.
+    glm::ivec2 thumbnailSize() const {
+        const auto height = static_cast<float>(layout_.strip.size.y) - 5 * ui_->emPx();
+        const auto width = 1.6F * height;
+        return glm::max(glm::ivec2(static_cast<int>(width), static_cast<int>(height)), glm::ivec2(1));
+    }
+
     void renderIfChanged(glm::ivec2 size) {
         const int frame = timeline_.frame();
         const std::vector<std::string> sets_now = settings_.changed();
-        const bool times = layout_.panel.isShown() && panel_.wantsPassTimes();
-        if (frame == state_.frame && size == rendered_size_ && sets_now == rendered_sets_ && !times) return;
+        const bool strip = layout_.strip.isShown();
+        const bool times = strip || (layout_.panel.isShown() && panel_.wantsPassTimes());
+        const bool is_asked = (times && timeline_.isPlaying()) || (strip && inspector_.wantsFrame()) ||
+                              times != timed_ || strip != observed_;
+        if (frame == state_.frame && size == rendered_size_ && sets_now == rendered_sets_ && !is_asked)
+            return;
+        timed_ = times;
+        observed_ = strip;
         const Clock::time_point start = Clock::now();
         if (times) state_.pass_times = timer_.begin();
         rendered_size_ = size;
@@ -266,7 +309,12 @@ class RungWindow {
         state_.frame = frame;
         readings_are_current_ = false;
         try {
-            renderer_.render(frame, size, times ? &timer_ : nullptr);
+            Observers observers;
+            if (times) observers.add(timer_);
+            if (strip) observers.add(inspector_);
+            inspector_.begin(renderer_, thumbnailSize());
+            renderer_.render(frame, size, observers.orNone());
+            if (strip) inspector_.end();
             frame_error_.clear();
         } catch (const std::bad_alloc&) {
             frame_error_ = "out of memory; make the window smaller, or ask for less";
@@ -290,7 +338,16 @@ class RungWindow {
     }
 
     void present(glm::ivec2 size) {
-        presentPicture(size);
+        if (isInspecting()) inspector_.look(renderer_, layout_.picture, cursorPx());
+        glClearColor(0.07F, 0.07F, 0.07F, 1);
+        glBindFramebuffer(GL_FRAMEBUFFER, 0);
+        glDisable(GL_SCISSOR_TEST);
+        if (isInspecting()) {
+            glClear(GL_COLOR_BUFFER_BIT);
+            presentAt(inspector_.looked(), inspector_.lookedAt(), size);
+        } else {
+            presentAt(renderer_.presented(), layout_.picture, size);
+        }
         state_.is_playing = timeline_.isPlaying();
         if (layout_.panel.isShown() && !readings_are_current_ && frame_error_.empty()) {
             state_.readings = renderer_.readings(); // waits for the frame: only for who looks
@@ -311,6 +368,10 @@ class RungWindow {
             if (asked.record) record(*asked.record);
             if (asked.cancel_recording) recorder_.cancel();
         }
+        if (isInspecting()) inspector_.drawBar(layout_.picture, pixels_per_unit, ui_->emPx());
+        if (layout_.strip.isShown())
+            inspector_.drawStrip(layout_.strip, pixels_per_unit, state_.pass_times,
+                                 inspector_.probe(renderer_.presented(), pictureTexel()));
         help_.draw(layout_.picture, pixels_per_unit);
         if (const auto said = recorder_.poll()) say(*said);
         if (!frame_error_.empty())
@@ -323,18 +384,27 @@ class RungWindow {
         glfwSwapBuffers(context_.window());
     }
 
-    void presentPicture(glm::ivec2 size) {
+    // Where the cursor is in the picture, from its lower left; nothing where it is elsewhere.
+    std::optional<glm::ivec2> pictureTexel() const {
+        const glm::dvec2 place = cursorPx();
         const Rectangle& picture = layout_.picture;
-        const int bottom = size.y - picture.corner.y - picture.size.y;
-        glBindFramebuffer(GL_READ_FRAMEBUFFER, renderer_.presented().id());
+        if (ui_->hasMouse() || !picture.contains(place) || rendered_size_ != picture.size) return {};
+        const glm::ivec2 from_top(place - glm::dvec2(picture.corner));
+        return glm::ivec2(from_top.x, picture.size.y - 1 - from_top.y);
+    }
+
+    // A framebuffer's picture in a place of that size in the window.
+    void presentAt(const Framebuffer& picture, const Rectangle& place, glm::ivec2 window) {
+        const int bottom = window.y - place.corner.y - place.size.y;
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, picture.id());
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
         glDisable(GL_FRAMEBUFFER_SRGB); // the frame is encoded already
         glDisable(GL_SCISSOR_TEST);
-        glBlitFramebuffer(0, 0, picture.size.x, picture.size.y, picture.corner.x, bottom,
-                          picture.corner.x + picture.size.x, bottom + picture.size.y, GL_COLOR_BUFFER_BIT,
+        glBlitFramebuffer(0, 0, place.size.x, place.size.y, place.corner.x, bottom,
+                          place.corner.x + place.size.x, bottom + place.size.y, GL_COLOR_BUFFER_BIT,
                           GL_NEAREST);
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
-        glViewport(0, 0, size.x, size.y);
+        glViewport(0, 0, window.x, window.y);
     }
 
     bool isHeld() const {
@@ -475,6 +545,7 @@ class RungWindow {
     Help help_;
     History history_;
     Recorder recorder_;
+    Inspector inspector_;
     std::optional<Ui> ui_;
     LayoutWish wish_;
     Layout layout_;
@@ -483,6 +554,8 @@ class RungWindow {
     std::vector<std::string> rendered_sets_;
     std::string frame_error_; // why the frame could not be drawn
     bool readings_are_current_ = false;
+    bool timed_ = false;            // whether the frame shown was
+    bool observed_ = false;         // by the inspector
     std::optional<Process> search_; // for the cheapest settings within a budget
     Clock::time_point search_start_;
     Clock::time_point start_ = Clock::now();
