@@ -28,8 +28,9 @@ const char* errorName(GLenum error) {
     }
 }
 
-void GLAD_API_PTR onMessage(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message,
+void GLAD_API_PTR onMessage(GLenum source, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message,
                             const void* user) {
+    if (source == GL_DEBUG_SOURCE_SHADER_COMPILER) return; // what does not compile is a ShaderError already
     if (type != GL_DEBUG_TYPE_ERROR && type != GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR) return;
     auto* errors = static_cast<std::vector<std::string>*>(const_cast<void*>(user));
     if (errors->size() < 16)

@@ -75,7 +75,8 @@ class Bindings {
     void requireAll() const {
         for (const auto& [name, uniform] : program_.uniforms())
             if (!given_.contains(name))
-                throw std::invalid_argument(program_.name() + ": uniform " + name + " was not set");
+                throw std::invalid_argument(program_.name() + ": uniform " + name +
+                                            " was not set: give it a value where the pass is drawn");
     }
 
   private:

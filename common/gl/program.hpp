@@ -1,8 +1,9 @@
-// Shader programs from files: includes, variants by definitions, errors that name the file and line, and
-// uniforms that are checked by name and type.
+// Shader programs: variants by definitions, uniforms that are checked by name and type, and building anew,
+// in place, what was made from files that have changed.
 #pragma once
 
 #include "gl/handle.hpp"
+#include "gl/shader_source.hpp"
 
 #include <filesystem>
 #include <functional>
@@ -12,7 +13,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <map>
-#include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -24,36 +26,16 @@ using UniformValue =
     std::variant<float, int, glm::ivec2, glm::vec2, glm::vec3, glm::vec4, glm::mat3, glm::mat4,
                  std::vector<float>, std::vector<glm::vec3>, std::vector<glm::vec4>>;
 
-// One "#define name value" put after the #version line of every stage.
-struct Define {
-    std::string name;
-    std::string value;
-};
-using Defines = std::vector<Define>;
-
-inline Defines operator+(Defines left, const Defines& right) {
-    left.insert(left.end(), right.begin(), right.end());
-    return left;
-}
-
-// A shader stage after its includes were put in. Line markers count files by their place in this list, and
-// lines from 100,000 times that.
-struct ShaderSource {
-    std::string text;
-    std::vector<std::string> files; // names relative to the shader root
-};
-
-// Reads a stage and puts in what it includes: #include "lib/x.glsl" is looked up under the same roots, a file
-// is put in once, at most 16 deep, and never from outside its root. Throws std::runtime_error "file:line:
-// what", and for a file that is not there every path tried.
-ShaderSource readShader(const std::vector<std::filesystem::path>& roots, const std::string& file,
-                        const Defines& defines = {});
-
 // A linked vertex + fragment program.
 class Program {
   public:
-    // Throws std::runtime_error with the compiler's first complaint as "file:line: what".
+    // Throws ShaderError with the compiler's first complaint.
     Program(std::string name, const ShaderSource& vertex, const ShaderSource& fragment);
+
+    // Makes it from other sources, or throws as above and stays what it was. Uniforms, and ends of arrays,
+    // that these sources do not use and the former ones did may still be set, to no effect: who edits a
+    // shader while it runs need not touch what draws with it.
+    void rebuild(const ShaderSource& vertex, const ShaderSource& fragment);
 
     const std::string& name() const { return name_; }
     GLuint id() const { return handle_.id(); }
@@ -76,6 +58,7 @@ class Program {
     std::string name_;
     Handle<destroy> handle_;
     std::map<std::string, Uniform, std::less<>> uniforms_;
+    std::map<std::string, Uniform, std::less<>> former_uniforms_; // of what it was before it was rebuilt
 };
 
 // The programs of one rung, compiled when first asked for and kept: a setting that selects a variant costs a
@@ -85,6 +68,8 @@ class ShaderLibrary {
     explicit ShaderLibrary(std::vector<std::filesystem::path> roots) : roots_(std::move(roots)) {}
 
     // The program of a vertex and a fragment file (paths relative to a root, such as "lib/fullscreen.vert").
+    // Valid as long as the library, also where it is rebuilt. Throws ShaderError where there is no such
+    // program yet.
     const Program& program(const std::string& vertex_file, const std::string& fragment_file,
                            const Defines& defines = {});
 
@@ -93,9 +78,35 @@ class ShaderLibrary {
         return program("lib/fullscreen.vert", fragment_file, defines);
     }
 
+    // Has the programs that were made from any of these files (canonical paths) rebuilt when they are next
+    // asked for. One that cannot be goes on as it last was, and why is among errors(); not where a file that
+    // it was made from is gone, as while an editor saves, which is waited for. Says whether there are such
+    // programs.
+    bool changed(const std::set<std::filesystem::path>& files);
+
+    // Why programs are not as their files have them, each error once.
+    std::vector<ShaderError> errors() const;
+
+    // How often changed() found programs. What keeps something that shaders drew makes it anew where this
+    // differs.
+    int generation() const { return generation_; }
+
+    const std::vector<std::filesystem::path>& roots() const { return roots_; }
+
   private:
+    struct Entry {
+        std::optional<Program> program;           // as it was last made; none: it never could be
+        std::set<std::filesystem::path> made_of;  // files of that
+        std::set<std::filesystem::path> asked_of; // files read, or sought, when it was last tried
+        bool is_stale = true;
+        std::optional<ShaderError> error;
+    };
+    void build(Entry& entry, const std::string& vertex_file, const std::string& fragment_file,
+               const Defines& defines);
+
     std::vector<std::filesystem::path> roots_;
-    std::map<std::string, std::unique_ptr<Program>> programs_;
+    std::map<std::string, Entry> programs_;
+    int generation_ = 0;
 };
 
 } // namespace gll

@@ -24,6 +24,7 @@ constexpr const char* keys[][2] = {{"Space", "play, pause"},
                                    {"I", "look into every target: click one, drag, wheel, point at a pixel"},
                                    {"Tab", "to the panel by keyboard; Esc goes back"},
                                    {"Ctrl + - 0", "size of text"},
+                                   {"Save a shader", "the next frame is drawn with it"},
                                    {"F11", "full screen"},
                                    {"F1", "this, and away again"},
                                    {"Esc", "close a list, leave the panel, or quit"}};

@@ -4,6 +4,8 @@
 namespace gll {
 
 std::vector<PassTime> PassTimer::begin() {
+    if (is_timing_ && !software_) glEndQuery(GL_TIME_ELAPSED); // of a pass that could not be drawn
+    is_timing_ = false;
     std::vector<PassTime> times = std::move(pending_);
     pending_.clear();
     if (!software_)
@@ -16,6 +18,7 @@ std::vector<PassTime> PassTimer::begin() {
 }
 
 void PassTimer::before(const std::string&) {
+    is_timing_ = true;
     if (software_) {
         glFinish();
         start_ = std::chrono::steady_clock::now();
@@ -30,6 +33,7 @@ void PassTimer::before(const std::string&) {
 
 void PassTimer::after(const DrawnPass& pass) {
     software_ ? glFinish() : glEndQuery(GL_TIME_ELAPSED);
+    is_timing_ = false;
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start_;
     pending_.push_back({pass.name, software_ ? elapsed.count() : 0});
 }

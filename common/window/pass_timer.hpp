@@ -28,6 +28,7 @@ class PassTimer final : public PassObserver {
 
   private:
     bool software_;
+    bool is_timing_ = false;
     std::vector<GLuint> queries_;
     std::vector<PassTime> pending_;
     std::chrono::steady_clock::time_point start_;

@@ -202,7 +202,7 @@ void wrappedText(std::string_view text) {
     ImGui::PopTextWrapPos();
 }
 
-void messageOver(const Rectangle& place, float pixels_per_unit, const std::string& text, bool is_error) {
+void messageOver(const Rectangle& place, float pixels_per_unit, const std::string& text) {
     const ImVec2 low = units(place.corner, pixels_per_unit);
     const ImVec2 extent = units(place.size, pixels_per_unit);
     const ImVec2 padding = ImGui::GetStyle().WindowPadding;
@@ -211,11 +211,9 @@ void messageOver(const Rectangle& place, float pixels_per_unit, const std::strin
     const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
     const ImVec2 at(low.x + margin + padding.x, low.y + extent.y - margin - padding.y - size.y);
     ImDrawList& over = *ImGui::GetForegroundDrawList();
-    const ImU32 background =
-        is_error ? ImGui::GetColorU32({0.35F, 0.08F, 0.08F, 0.95F}) : ImGui::GetColorU32(ImGuiCol_PopupBg);
     over.AddRectFilled({at.x - padding.x, at.y - padding.y},
-                       {at.x + size.x + padding.x, at.y + size.y + padding.y}, background,
-                       ImGui::GetStyle().FrameRounding);
+                       {at.x + size.x + padding.x, at.y + size.y + padding.y},
+                       ImGui::GetColorU32(ImGuiCol_PopupBg), ImGui::GetStyle().FrameRounding);
     over.AddText(nullptr, 0, at, ImGui::GetColorU32(ImGuiCol_Text), text.c_str(), nullptr, wrap);
 }
 

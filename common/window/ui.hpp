@@ -67,8 +67,7 @@ bool beginCombo(const char* label, const char* chosen);
 
 void wrappedText(std::string_view text);
 
-// At the bottom of a place, over all else, moving nothing. Colours as ImGui's popups, or an error's.
-void messageOver(const Rectangle& place, float pixels_per_unit, const std::string& text,
-                 bool is_error = false);
+// At the bottom of a place, over all else, moving nothing. Colours as ImGui's popups.
+void messageOver(const Rectangle& place, float pixels_per_unit, const std::string& text);
 
 } // namespace gll

@@ -2,11 +2,13 @@
 #include "window/window.hpp"
 
 #include "rung/capture.hpp"
+#include "window/error_view.hpp"
 #include "window/glfw_window.hpp"
 #include "window/help.hpp"
 #include "window/history.hpp"
 #include "window/inspector.hpp"
 #include "window/layout.hpp"
+#include "window/live_shaders.hpp"
 #include "window/panel.hpp"
 #include "window/pass_timer.hpp"
 #include "window/recorder.hpp"
@@ -61,8 +63,9 @@ class RungWindow {
                Settings& settings)
         : info_(info), settings_(settings), given_(request.files),
           context_(info.name + " - GL Ladder", usual_window), renderer_(context_, info, request.files),
-          timeline_(request.first_frame), timer_(context_.info().is_software), panel_(info.name, settings),
-          help_(Resources(), info.name), history_(values()) {
+          live_(info.name, renderer_.shaders()), timeline_(request.first_frame),
+          timer_(context_.info().is_software), panel_(info.name, settings), help_(Resources(), info.name),
+          history_(values()) {
         glfwSetWindowUserPointer(context_.window(), this);
         glfwSetKeyCallback(context_.window(), onKey);
         glfwSetCursorPosCallback(context_.window(), onCursor);
@@ -294,10 +297,11 @@ class RungWindow {
     void renderIfChanged(glm::ivec2 size) {
         const int frame = timeline_.frame();
         const std::vector<std::string> sets_now = settings_.changed();
+        const bool is_edited = live_.update();
         const bool strip = layout_.strip.isShown();
         const bool times = strip || (layout_.panel.isShown() && panel_.wantsPassTimes());
         const bool is_asked = (times && timeline_.isPlaying()) || (strip && inspector_.wantsFrame()) ||
-                              times != timed_ || strip != observed_;
+                              times != timed_ || strip != observed_ || is_edited;
         if (frame == state_.frame && size == rendered_size_ && sets_now == rendered_sets_ && !is_asked)
             return;
         timed_ = times;
@@ -308,20 +312,14 @@ class RungWindow {
         rendered_sets_ = sets_now;
         state_.frame = frame;
         readings_are_current_ = false;
-        try {
+        live_.attempt([&] {
             Observers observers;
             if (times) observers.add(timer_);
             if (strip) observers.add(inspector_);
             inspector_.begin(renderer_, thumbnailSize());
             renderer_.render(frame, size, observers.orNone());
             if (strip) inspector_.end();
-            frame_error_.clear();
-        } catch (const std::bad_alloc&) {
-            frame_error_ = "out of memory; make the window smaller, or ask for less";
-        } catch (const std::exception& error) {
-            frame_error_ =
-                error.what(); // such as a shader that does not compile: the show goes on without it
-        }
+        });
         if (context_.info().is_software) glFinish();
         showWarnings();
         state_.frame_time_ms = secondsSince(start) * 1e3;
@@ -349,7 +347,7 @@ class RungWindow {
             presentAt(renderer_.presented(), layout_.picture, size);
         }
         state_.is_playing = timeline_.isPlaying();
-        if (layout_.panel.isShown() && !readings_are_current_ && frame_error_.empty()) {
+        if (layout_.panel.isShown() && !readings_are_current_ && live_.isDrawn()) {
             state_.readings = renderer_.readings(); // waits for the frame: only for who looks
             readings_are_current_ = true;
         }
@@ -374,9 +372,8 @@ class RungWindow {
                                  inspector_.probe(renderer_.presented(), pictureTexel()));
         help_.draw(layout_.picture, pixels_per_unit);
         if (const auto said = recorder_.poll()) say(*said);
-        if (!frame_error_.empty())
-            messageOver(layout_.picture, pixels_per_unit, frame_error_, true);
-        else if (secondsSince(message_start_) < message_length_s_ && wish_.panel)
+        errorsOver(layout_.picture, pixels_per_unit, live_.errors(), live_.isDrawn());
+        if (secondsSince(message_start_) < message_length_s_ && wish_.panel)
             messageOver(layout_.picture, pixels_per_unit, message_);
         ui_->end();
         attendSearch();
@@ -538,6 +535,7 @@ class RungWindow {
     GlfwLibrary library_;
     WindowContext context_;
     Renderer renderer_;
+    LiveShaders live_;
     Timeline timeline_;
     PassTimer timer_;
     Panel panel_;
@@ -552,7 +550,6 @@ class RungWindow {
     PanelState state_;
     glm::ivec2 rendered_size_{0};
     std::vector<std::string> rendered_sets_;
-    std::string frame_error_; // why the frame could not be drawn
     bool readings_are_current_ = false;
     bool timed_ = false;            // whether the frame shown was
     bool observed_ = false;         // by the inspector

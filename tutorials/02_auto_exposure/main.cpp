@@ -96,6 +96,7 @@ class AutoExposureRung final : public Rung {
         const AutoExposureOptions& meter = options_.exposure;
         std::string text = meter.reduction.name();
         text += options_.test_pattern.name();
+        text += std::to_string(shaders_.generation());
         for (const float value : {float(options_.light_ev), float(meter.epsilon), float(meter.low_percent),
                                   float(meter.high_percent), float(options_.display.white_point)})
             (text += ",") += std::to_string(std::bit_cast<std::uint32_t>(value)); // exact

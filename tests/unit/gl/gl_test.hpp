@@ -26,8 +26,8 @@ void main() { color = flat_color; }
 )";
 
 inline Program makeProgram(const std::string& vertex, const std::string& fragment) {
-    return Program("test program", ShaderSource{vertex, {"test.vert"}},
-                   ShaderSource{fragment, {"test.frag"}});
+    return Program("test program", ShaderSource{vertex, {{"test.vert"}}},
+                   ShaderSource{fragment, {{"test.frag"}}});
 }
 
 // A pixel of the texture, counted from the bottom left as OpenGL does; channels it lacks are 0. 8-bit values

@@ -37,7 +37,7 @@ class PassTest : public GlTest {
 TEST_F(PassTest, aUniformOrSamplerThatIsNotGivenIsAnError) {
     const Framebuffer target({{"out"}}, {2, 2});
     EXPECT_EQ(messageOf<std::invalid_argument>([&] { draw(target, {.program = flat}); }),
-              "test program: uniform flat_color was not set");
+              "test program: uniform flat_color was not set: give it a value where the pass is drawn");
     const Program sampling = makeProgram(full_screen_vertex, R"(#version 330 core
 in vec2 uv;
 uniform sampler2D source;
@@ -45,7 +45,7 @@ out vec4 color;
 void main() { color = texture(source, uv); }
 )");
     EXPECT_EQ(messageOf<std::invalid_argument>([&] { draw(target, {.program = sampling}); }),
-              "test program: uniform source was not set");
+              "test program: uniform source was not set: give it a value where the pass is drawn");
     EXPECT_CONTAINS(
         messageOf<std::invalid_argument>([&] {
             draw(target, {.program = flat, .uniforms = {{"flat_color", red}, {"no_such_color", red}}});
@@ -301,7 +301,7 @@ TEST_F(DrawsTest, aUniformThatOnlyTheDrawBeforeHadIsMissing) {
                   draw(target, {.program = flat_mesh,
                                 .draws = {{.mesh = left, .uniforms = paint_red}, {.mesh = right}}});
               }),
-              "test program: uniform flat_color was not set");
+              "test program: uniform flat_color was not set: give it a value where the pass is drawn");
 }
 
 TEST_F(DrawsTest, aDrawMayBeAPartOfItsMesh) {

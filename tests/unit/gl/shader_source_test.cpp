@@ -33,7 +33,10 @@ TEST_F(ShaderSourceTest, includesAreFoundUnderTheRootNotBesideTheFile) {
     folder.write("shaders/lib/x.glsl", "included\n");
     const ShaderSource source = read("stage/a.frag");
     EXPECT_EQ(source.text, "#version 330 core\n#line 2 0\n#line 100001 1\nincluded\n#line 3 0\nlast\n");
-    EXPECT_EQ(source.files, (std::vector<std::string>{"stage/a.frag", "lib/x.glsl"}));
+    ASSERT_EQ(source.files.size(), 2U);
+    EXPECT_EQ(source.files[0].name, "stage/a.frag");
+    EXPECT_EQ(source.files[1].name, "lib/x.glsl");
+    EXPECT_EQ(source.files[1].path, fs::canonical(root / "lib/x.glsl"));
 }
 
 TEST_F(ShaderSourceTest, aFileIsPutInOnceEvenThroughACircle) {
@@ -153,9 +156,6 @@ class ShaderErrorTest : public GlTest {
             [&] { ShaderLibrary({folder.path()}).program("full.vert", fragment_file, defines); });
     }
     void SetUp() override { folder.write("full.vert", full_screen_vertex); }
-    void TearDown() override { // drivers report a failed compilation as an OpenGL error too
-        messageOf<std::runtime_error>([&] { context->debugLog().check("compiler"); });
-    }
 
     TemporaryFolder folder;
 };
