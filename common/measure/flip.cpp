@@ -338,6 +338,22 @@ ColorImage exposed(const ColorImage& linear_image, double exposure_ev) {
     return result;
 }
 
+ScalarImage hdrFlipOf(const ColorImage& linear_image, const ColorImage& linear_reference,
+                      const Exposures& exposures, double pixels_per_degree,
+                      const std::function<void(int, int)>& progress) {
+    const Filters filters = filtersFor(pixels_per_degree);
+    ScalarImage result(linear_image.width, linear_image.height);
+    for (int i = 0; i < exposures.count; ++i) {
+        if (progress) progress(i, exposures.count);
+        const double exposure_ev = exposures.at(i);
+        const ScalarImage map =
+            flipWith(filters, exposed(linear_image, exposure_ev), exposed(linear_reference, exposure_ev));
+        for (std::size_t p = 0; p < map.pixels.size(); ++p)
+            result.pixels[p] = std::max(result.pixels[p], map.pixels[p]);
+    }
+    return result;
+}
+
 } // namespace
 
 ScalarImage flip(const ColorImage& display_light, const ColorImage& reference_display_light,
@@ -372,17 +388,19 @@ Exposures flipExposures(const ColorImage& linear_reference) {
 HdrFlip hdrFlip(const ColorImage& linear_image, const ColorImage& linear_reference, double pixels_per_degree,
                 const std::function<void(int, int)>& progress) {
     requireComparable("hdrFlip", linear_image, linear_reference);
+    const Exposures exposures = flipExposures(linear_reference);
+    return {hdrFlipOf(linear_image, linear_reference, exposures, pixels_per_degree, progress), exposures};
+}
+
+ScalarImage hdrFlip(const ColorImage& linear_image, const ColorImage& linear_reference,
+                    const Exposures& exposures, double pixels_per_degree) {
+    requireComparable("hdrFlip", linear_image, linear_reference);
+    return hdrFlipOf(linear_image, linear_reference, exposures, pixels_per_degree, {});
+}
+
+int flipReachPx(double pixels_per_degree) {
     const Filters filters = filtersFor(pixels_per_degree);
-    HdrFlip result{ScalarImage(linear_image.width, linear_image.height), flipExposures(linear_reference)};
-    for (int i = 0; i < result.exposures.count; ++i) {
-        if (progress) progress(i, result.exposures.count);
-        const double exposure_ev = result.exposures.at(i);
-        const ScalarImage map =
-            flipWith(filters, exposed(linear_image, exposure_ev), exposed(linear_reference, exposure_ev));
-        for (std::size_t p = 0; p < map.pixels.size(); ++p)
-            result.map.pixels[p] = std::max(result.map.pixels[p], map.pixels[p]);
-    }
-    return result;
+    return static_cast<int>(std::max(filters.achromatic.size(), filters.feature_edge.size()) / 2);
 }
 
 FlipSummary summary(const ScalarImage& map) {

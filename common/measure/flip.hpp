@@ -14,6 +14,10 @@ inline constexpr double default_pixels_per_degree = 67;
 inline constexpr double least_pixels_per_degree = 1;
 inline constexpr double most_pixels_per_degree = 1000; // filters have radii of up to 136 pixels then
 
+// How many pixels away a pixel's colour still counts: the radius of the widest filter. Throws
+// std::invalid_argument where pixels_per_degree is out of range.
+int flipReachPx(double pixels_per_degree);
+
 // LDR-FLIP of two pictures in linear display light (decoded; values outside [0, 1] are clamped, as displays
 // do): for each pixel 0 (no difference) to 1. Beyond the edges the nearest pixel's colour goes on. Symmetric.
 // Throws std::invalid_argument where sizes differ, a colour is not finite, or pixels_per_degree is out of
@@ -47,6 +51,17 @@ struct HdrFlip {
 HdrFlip hdrFlip(const ColorImage& linear_image, const ColorImage& linear_reference,
                 double pixels_per_degree = default_pixels_per_degree,
                 const std::function<void(int, int)>& progress = {});
+
+// The map alone, for exposures chosen before: those of a whole picture where only a part of it is given.
+ScalarImage hdrFlip(const ColorImage& linear_image, const ColorImage& linear_reference,
+                    const Exposures& exposures, double pixels_per_degree);
+
+// The map of two images of one kind: FLIP of display values (color space srgb), HDR-FLIP of linear light.
+// What flip() and hdrFlip() say of their linearColor(), to the bit, but computed only where a difference
+// reaches, and large images by several threads. Throws std::invalid_argument as those do, and where the
+// images' sizes, channels or color spaces differ.
+ScalarImage flipMap(const Image& image, const Image& reference,
+                    double pixels_per_degree = default_pixels_per_degree);
 
 // What a map of errors is told by. The weighted median weighs each pixel by its error:
 // half of all the error lies in pixels above it; 0 where nothing differs.

@@ -51,6 +51,8 @@ void become(const Command& command, int out, int err, char* const* arguments, ch
     _exit(127);
 }
 
+} // namespace
+
 // Within single quotes nothing has a meaning but the quote itself.
 std::string shellWord(const std::string& word) {
     constexpr const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=:,+-";
@@ -60,8 +62,6 @@ std::string shellWord(const std::string& word) {
         quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return quoted + "'";
 }
-
-} // namespace
 
 std::string shellLine(const Command& command) {
     std::string line = shellWord(command.program.string());

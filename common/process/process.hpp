@@ -28,6 +28,8 @@ struct Command {
     std::optional<unsigned> file_limit_kib = {}; // writing beyond fails, as on a full disk
 };
 
+// One word for a POSIX shell, quoted where that is needed.
+std::string shellWord(const std::string& word);
 // Its program and arguments as a line for a POSIX shell, quoted where that needs it.
 std::string shellLine(const Command& command);
 

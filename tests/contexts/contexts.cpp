@@ -1,6 +1,6 @@
 // The same frames through OSMesa and through EGL: no pixel may differ, in what a display shows and in the
 // targets. Usage: contexts RUNG
-#include "support/comparison.hpp"
+#include "measure/comparison.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -39,13 +39,6 @@ void renderAll(const std::filesystem::path& rung, const std::vector<Request>& re
     runToSuccess({rung, {"--context", context, "--batch", batch.string()}});
 }
 
-// Of floats only whether all are equal matters here.
-bool identical(const Image& a, const Image& b) {
-    if (std::holds_alternative<std::vector<float>>(a.pixels))
-        return a.width == b.width && a.height == b.height && a.channels == b.channels && a.pixels == b.pixels;
-    return compare(a, b).identical();
-}
-
 int check(const std::filesystem::path& rung) {
     const TemporaryFolder folder;
     const std::vector<Request> requests = requestsFor(rung);
@@ -55,10 +48,10 @@ int check(const std::filesystem::path& rung) {
     for (const Request& request : requests) {
         const Image osmesa = loadImage(folder / ("osmesa_" + request.name));
         const Image egl = loadImage(folder / ("egl_" + request.name));
-        const bool same = identical(osmesa, egl);
-        const Comparison comparison = compare(osmesa, egl);
+        const measure::Comparison comparison = measure::compare(osmesa, egl);
+        const bool same = comparison.identical();
         std::printf("%s: OSMesa and EGL %s\n%s", request.name.c_str(), same ? "agree" : "DIFFER",
-                    comparison.comparable ? (comparison.summary() + "\n" + comparison.map()).c_str() : "");
+                    same ? "" : (comparison.summary() + "\n" + comparison.map()).c_str());
         failures += same ? 0 : 1;
     }
     return failures == 0 ? 0 : 1;

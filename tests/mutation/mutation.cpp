@@ -5,16 +5,17 @@
 //     tests/run -L mutation                              one fault in twenty: minutes
 //     build/release/bin/mutation --sample 8 ...         a quick look, in every run
 //     build/release/bin/mutation --only lib/ --share 1   every fault of some files
+#include "frame_check/rule.hpp"
 #include "mutation/mutants.hpp"
 #include "mutation/rendering.hpp"
-#include "support/comparison.hpp"
-#include "support/process.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <thread>
@@ -53,18 +54,23 @@ struct Task {
     unsigned jobs = 1;
 };
 
-// What draws the frames, if it drew the goldens' pictures too; else those are drawn anew to compare with.
-std::string rendererOf(const Rung& rung) {
-    const auto json =
-        nlohmann::json::parse(runToSuccess({rung.program, {"--settings", "--json"}, rasteriser}).out);
-    return json.at("renderer");
+std::vector<const frame_check::Case*> pointersTo(const frame_check::Suite& suite,
+                                                 const std::vector<std::size_t>& cases) {
+    std::vector<const frame_check::Case*> pointers;
+    for (const std::size_t i : cases)
+        pointers.push_back(&suite.cases[i]);
+    return pointers;
 }
 
 std::vector<std::size_t> allOf(const Rung& rung) {
-    std::vector<std::size_t> all(rung.cases.size());
-    for (std::size_t i = 0; i < all.size(); ++i)
-        all[i] = i;
+    std::vector<std::size_t> all(rung.suite.cases.size());
+    std::iota(all.begin(), all.end(), std::size_t(0));
     return all;
+}
+
+// One thread for a frame's pixels: the jobs are what goes on at once.
+frame_check::SuiteChanges changesFor(const fs::path& program) {
+    return {.program = program.string(), .environment = {{"LP_NUM_THREADS", "0"}}};
 }
 
 class Runner {
@@ -73,11 +79,11 @@ class Runner {
         for (const auto& entry : fs::directory_iterator(goldens_))
             if (const std::string name = entry.path().filename();
                 fs::exists(task.programs / name) && entry.is_directory())
-                rungs_.push_back({.name = name,
-                                  .program = task.programs / name,
-                                  .cases = readCases(entry.path()),
-                                  .references = {},
-                                  .shaders = shadersOf(task.root, name)});
+                rungs_.push_back(
+                    {.name = name,
+                     .suite = frame_check::readSuites(entry.path(), changesFor(task.programs / name)).at(0),
+                     .references = {},
+                     .shaders = shadersOf(task.root, name)});
         if (rungs_.empty()) throw std::runtime_error(task.programs.string() + ": holds no rung with goldens");
         std::sort(rungs_.begin(), rungs_.end(), [](const Rung& a, const Rung& b) { return a.name < b.name; });
         readExcuses();
@@ -173,21 +179,23 @@ class Runner {
         if (std::none_of(mutants_.begin(), mutants_.end(),
                          [&](const Mutant& m) { return rung.shaders.contains(m.file); }))
             return;
-        const std::string renderer = rendererOf(rung);
-        const fs::path folder = goldens_ / rung.name;
-        if (std::all_of(rung.cases.begin(), rung.cases.end(), [&](const GoldenCase& golden) {
-                return !golden.blessed.empty() && golden.blessed[0].renderer == renderer;
-            })) {
-            for (const GoldenCase& golden : rung.cases)
-                rung.references.push_back(loadImage(folder / (golden.name + ".png")));
+        const std::string renderer = frame_check::rendererOf(rung.suite);
+        if (std::all_of(rung.suite.cases.begin(), rung.suite.cases.end(),
+                        [&](const frame_check::Case& golden) {
+                            return !golden.blessed.empty() && golden.blessed[0].renderer == renderer;
+                        })) {
+            for (const frame_check::Case& golden : rung.suite.cases)
+                rung.references.push_back(loadImage(rung.suite.pictureOf(golden.name)));
             return;
         }
         const Copy copy(task_.root, {rung});
-        Rendering rendering(copy, rung, goldens_, allOf(rung));
-        for (const GoldenCase& golden : rung.cases) {
-            std::optional<Image> image = rendering.next();
-            if (!image) throw std::runtime_error(rung.name + ", " + golden.name + ": cannot be drawn");
-            rung.references.push_back(std::move(*image));
+        const frame_check::Suite suite = copy.suite(rung);
+        frame_check::Rendering rendering(suite, pointersTo(suite, allOf(rung)));
+        for (const frame_check::Case& golden : rung.suite.cases) {
+            const frame_check::Frame frame = rendering.next();
+            if (!frame.error.empty())
+                throw std::runtime_error(rung.name + ", " + golden.name + ": " + frame.error);
+            rung.references.push_back(loadImage(frame.file));
         }
     }
 
@@ -225,23 +233,25 @@ class Runner {
         bool is_drawn = false; // with the fault in it
         bool fails = false;
         for (const auto& [rung, cases] : order(outcome.mutant)) {
-            Rendering rendering(copy, *rung, goldens_, cases);
+            const frame_check::Suite suite = copy.suite(*rung);
+            frame_check::Rendering rendering(suite, pointersTo(suite, cases));
             for (const std::size_t i : cases) {
-                const std::optional<Image> frame = rendering.next();
+                const frame_check::Frame frame = rendering.next();
                 if (rendering.hangs()) {
                     outcome.by = rung->name + " hangs";
                     outcome.verdict = Verdict::killed;
                     return;
                 }
-                if (!frame) {
+                if (!frame.error.empty()) {
                     fails = true;
                     continue;
                 }
                 is_drawn = true;
-                const Comparison comparison = compare(rung->references[i], *frame);
-                most_differing = std::max(most_differing, comparison.differing.size());
-                if (comparison.tolerable()) continue;
-                outcome.by = rung->name + " " + rung->cases[i].name;
+                const frame_check::Measurement measurement{
+                    .comparison = measure::compare(rung->references[i], loadImage(frame.file))};
+                most_differing = std::max(most_differing, measurement.comparison.differing());
+                if (frame_check::satisfies(suite.ruleOf(suite.cases[i]), measurement)) continue;
+                outcome.by = rung->name + " " + rung->suite.cases[i].name;
                 outcome.verdict = Verdict::killed;
                 const std::lock_guard lock(mutex_);
                 kills_.push_back({outcome.mutant.file, outcome.mutant.line, rung, i});
@@ -268,7 +278,7 @@ class Runner {
         for (const Rung& rung : rungs_) {
             if (!rung.shaders.contains(mutant.file)) continue;
             std::vector<std::pair<double, std::size_t>> cases;
-            for (std::size_t i = 0; i < rung.cases.size(); ++i) {
+            for (std::size_t i = 0; i < rung.suite.cases.size(); ++i) {
                 const Image& reference = rung.references[i];
                 double score = 1e4 + double(reference.width) * double(reference.height) / 1e3;
                 for (const Kill& kill : kills_)

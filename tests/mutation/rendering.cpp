@@ -1,12 +1,9 @@
-// Finding the shaders of rungs, and rendering their golden cases as a batch.
+// Finding the shaders of rungs, and copying what they are drawn with.
 #include "mutation/rendering.hpp"
-
-#include "support/process.hpp"
 
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
-#include <thread>
 
 namespace gll::test {
 namespace fs = std::filesystem;
@@ -73,45 +70,15 @@ std::set<std::string> shadersOf(const fs::path& root, const std::string& rung) {
 Copy::Copy(const fs::path& root, const std::vector<Rung>& rungs) {
     fs::create_directories(folder_ / "bin");
     for (const Rung& rung : rungs)
-        fs::copy_file(rung.program, folder_ / "bin" / rung.name);
+        fs::copy_file(rung.suite.program, folder_ / "bin" / rung.name);
     fs::copy(root / "shaders", folder_ / "shaders", fs::copy_options::recursive);
     fs::create_directory_symlink(fs::canonical(root / "assets"), folder_ / "assets");
 }
 
-Rendering::Rendering(const Copy& copy, const Rung& rung, const fs::path& goldens,
-                     const std::vector<std::size_t>& cases)
-    : count_(cases.size()) {
-    std::string lines;
-    for (std::size_t i = 0; i < count_; ++i) {
-        nlohmann::ordered_json line = batchLine(rung.cases[cases[i]], goldens / rung.name);
-        line["out"] = file(i).string();
-        lines += line.dump() + "\n";
-    }
-    const fs::path batch = folder_.write("batch.jsonl", lines);
-    process_.emplace(
-        Command{copy.program(rung), {"--context", "osmesa", "--batch", batch.string()}, rasteriser});
-}
-
-std::optional<Image> Rendering::next() {
-    // A frame is whole once the next one is begun or the program has ended.
-    const std::size_t i = next_++;
-    while (!end_) {
-        end_ = process_->poll();
-        for (std::size_t later = i + 1; later < count_; ++later)
-            if (fs::exists(file(later)))
-                return fs::exists(file(i)) ? std::optional(loadImage(file(i))) : std::nullopt;
-        if (std::chrono::steady_clock::now() - begin_ > std::chrono::seconds(100)) {
-            hangs_ = true;
-            return std::nullopt;
-        }
-        if (!end_) std::this_thread::sleep_for(std::chrono::milliseconds(3));
-    }
-    return fs::exists(file(i)) ? std::optional(loadImage(file(i))) : std::nullopt;
-}
-
-std::string Rendering::messages() {
-    if (!end_) end_ = process_->wait(std::chrono::seconds(100));
-    return end_->err;
+frame_check::Suite Copy::suite(const Rung& rung) const {
+    frame_check::Suite suite = rung.suite;
+    suite.program = folder_ / "bin" / rung.name;
+    return suite;
 }
 
 } // namespace gll::test

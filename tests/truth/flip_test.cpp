@@ -339,5 +339,48 @@ TEST(HeatMap, isLighterWhereThereIsMoreError) {
         EXPECT_GT(luminance709(colors.at(x, 0)), luminance709(colors.at(x - 8, 0))) << x;
 }
 
+// Noise of one kind, and the same with other noise in some places.
+template <class Sample>
+std::pair<Image, Image> imagesDifferingInPlaces(ColorSpace space, double scale) {
+    Image one{.width = 150, .height = 300, .channels = 3, .color_space = space, .pixels = {}};
+    std::mt19937 random(1);
+    std::vector<Sample> samples(std::size_t(3) * 150 * 300);
+    for (Sample& sample : samples)
+        sample = static_cast<Sample>(scale * double(random()) / 4294967296.0);
+    Image other = one;
+    one.pixels = samples;
+    const auto change = [&](int from_x, int from_y, int size) {
+        for (int y = from_y; y < std::min(from_y + size, 300); ++y)
+            for (int x = from_x; x < std::min(from_x + size, 150); ++x)
+                samples[static_cast<std::size_t>(3 * (y * 150 + x))] = static_cast<Sample>(scale / 2);
+    };
+    change(0, 0, 1);     // a corner
+    change(70, 127, 2);  // over the seam of two bands, whose differences reach into both
+    change(140, 290, 9); // near the other corner
+    other.pixels = std::move(samples);
+    return {one, other};
+}
+
+TEST(FlipMap, IsFlipToTheBitWhereverTheImagesDiffer) {
+    const auto [one, other] = imagesDifferingInPlaces<std::uint8_t>(ColorSpace::srgb, 255);
+    EXPECT_EQ(flipMap(one, other).pixels, flip(linearColor(one), linearColor(other)).pixels);
+    EXPECT_EQ(flipMap(one, other, 20).pixels, flip(linearColor(one), linearColor(other), 20).pixels);
+    EXPECT_EQ(summary(flipMap(one, one)).largest, 0);
+}
+
+TEST(FlipMap, IsHdrFlipToTheBitOfLinearLight) {
+    const auto [one, other] = imagesDifferingInPlaces<float>(ColorSpace::linear, 9);
+    EXPECT_EQ(flipMap(one, other).pixels, hdrFlip(linearColor(one), linearColor(other)).map.pixels);
+}
+
+TEST(FlipMap, RefusesImagesOfTwoKinds) {
+    const auto [one, other] = imagesDifferingInPlaces<float>(ColorSpace::linear, 9);
+    const auto [bytes, more_bytes] = imagesDifferingInPlaces<std::uint8_t>(ColorSpace::srgb, 255);
+    EXPECT_THROW(flipMap(one, bytes), std::invalid_argument);
+    Image thin = one;
+    thin.width = 75;
+    EXPECT_THROW(flipMap(one, thin), std::invalid_argument);
+}
+
 } // namespace
 } // namespace gll::measure

@@ -1,7 +1,5 @@
-// Which cases are asked for, where their files are, and that a case which is gone is missed.
-#include "golden/complete.hpp"
-
-#include "support/temporary_folder.hpp"
+// Which cases are asked for.
+#include "complete/complete.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,11 +18,11 @@ const auto listed_settings = nlohmann::json::parse(R"({
     "presets": [{"name": "original", "values": []}, {"name": "recommended", "values": [["blur", "dual"]]}]
 })");
 
-GoldenCase caseOf(const std::string& request) {
-    return {.name = "case", .request = nlohmann::ordered_json::parse(request), .blessed = {}};
+frame_check::Case caseOf(const std::string& request) {
+    return {.name = "case", .settings = nlohmann::ordered_json::parse(request)};
 }
 
-const std::vector<GoldenCase> all = {
+const std::vector<frame_check::Case> all = {
     caseOf(R"({"preset": "recommended"})"),
     caseOf(R"({"set": {"blur": "box", "tone_map": "film", "bloom": false, "exposure_ev": "1"}})")};
 
@@ -48,26 +46,6 @@ TEST(CompleteGoldens, takeAnExcuseAndRefuseOneThatIsNotNeeded) {
     EXPECT_EQ(missingCases(listed_settings, {all[1]}, {{"blur=dual", "reason"}}), std::vector<std::string>{});
     EXPECT_EQ(missingCases(listed_settings, all, {{"blur=dual", "reason"}}).size(), 1U);
     EXPECT_EQ(missingCases(listed_settings, all, {{"blurred", "reason"}}).size(), 1U);
-}
-
-TEST(GoldenCases, nameTheirFilesFromTheirFolder) {
-    const GoldenCase golden = caseOf(R"({"image": "../a.exr", "mesh": "b.gltf", "floor": "c.mtl",
-                                         "environment": "d.hdr", "preset": "original"})");
-    const auto line = batchLine(golden, "goldens");
-    EXPECT_EQ(line.at("image"), "goldens/../a.exr");
-    EXPECT_EQ(line.at("mesh"), "goldens/b.gltf");
-    EXPECT_EQ(line.at("floor"), "goldens/c.mtl");
-    EXPECT_EQ(line.at("environment"), "goldens/d.hdr");
-    EXPECT_EQ(line.at("preset"), "original");
-}
-
-TEST(GoldenList, missesACaseThatIsGoneAndOneThatItDoesNotKnow) {
-    const TemporaryFolder folder;
-    EXPECT_EQ(differencesToList(folder.path(), {all[0]}).size(), 1U);
-    addToList(folder.path(), "case");
-    addToList(folder.path(), "case");
-    EXPECT_EQ(differencesToList(folder.path(), {all[0]}), std::vector<std::string>{});
-    EXPECT_EQ(differencesToList(folder.path(), {}).size(), 1U);
 }
 
 } // namespace

@@ -1,8 +1,7 @@
-// Whether a rung's golden cases are all there and show all its settings: what no frame shows can change
-// unnoticed.
+// Whether a rung's golden cases show all its settings: what no frame shows can change unnoticed.
 #pragma once
 
-#include "golden/case.hpp"
+#include "frame_check/suite.hpp"
 
 #include <filesystem>
 #include <map>
@@ -22,13 +21,7 @@ Excuses readExcuses(const std::filesystem::path& json_file, const std::string& r
 // Of settings that another rung owns one choice will do, since that rung's goldens show the others, and so of
 // the other side of a comparison (by its role), which is drawn by the same code as the first. An excuse that
 // is not needed is said too.
-std::vector<std::string> missingCases(const nlohmann::json& listed, const std::vector<GoldenCase>& cases,
-                                      const Excuses& excuses);
-
-// The names in the folder's cases.txt, one a line, are those of the cases that must be there. A sentence for
-// each that is not there, and for each that is and is not listed.
-std::vector<std::string> differencesToList(const std::filesystem::path& folder,
-                                           const std::vector<GoldenCase>& cases);
-void addToList(const std::filesystem::path& folder, const std::string& name);
+std::vector<std::string> missingCases(const nlohmann::json& listed,
+                                      const std::vector<frame_check::Case>& cases, const Excuses& excuses);
 
 } // namespace gll::test

@@ -1,5 +1,5 @@
-// Which cases are missing: by the rung's settings, and by the list of those that were there.
-#include "golden/complete.hpp"
+// Which cases are missing, by the rung's settings.
+#include "complete/complete.hpp"
 
 #include <fstream>
 #include <set>
@@ -17,16 +17,16 @@ std::string text(const nlohmann::json& value) {
 
 // What the cases set each setting to, those that leave it alone not counted.
 std::map<std::string, std::set<std::string>> shownValues(const nlohmann::json& listed,
-                                                         const std::vector<GoldenCase>& cases) {
+                                                         const std::vector<frame_check::Case>& cases) {
     std::map<std::string, std::set<std::string>> shown;
-    for (const GoldenCase& golden : cases) {
+    for (const frame_check::Case& golden : cases) {
         std::map<std::string, std::string> values;
         for (const auto& preset : listed.at("presets"))
-            if (preset.at("name") == golden.request.value("preset", "original"))
+            if (preset.at("name") == golden.settings.value("preset", "original"))
                 for (const auto& value : preset.at("values"))
                     values[value.at(0)] = value.at(1);
-        if (golden.request.contains("set"))
-            for (const auto& [name, value] : golden.request.at("set").items())
+        if (golden.settings.contains("set"))
+            for (const auto& [name, value] : golden.settings.at("set").items())
                 values[name] = text(value);
         for (const auto& [name, value] : values)
             shown[name].insert(value);
@@ -37,14 +37,6 @@ std::map<std::string, std::set<std::string>> shownValues(const nlohmann::json& l
 bool isDefault(const nlohmann::json& setting, const std::string& value) {
     const auto& usual = setting.at("default");
     return usual.is_number() ? std::stod(value) == usual.get<double>() : text(usual) == value;
-}
-
-std::set<std::string> readList(const fs::path& folder) {
-    std::set<std::string> names;
-    std::ifstream stream(folder / "cases.txt");
-    for (std::string name; std::getline(stream, name);)
-        if (!name.empty()) names.insert(name);
-    return names;
 }
 
 } // namespace
@@ -59,8 +51,8 @@ Excuses readExcuses(const fs::path& json_file, const std::string& rung) {
     }
 }
 
-std::vector<std::string> missingCases(const nlohmann::json& listed, const std::vector<GoldenCase>& cases,
-                                      const Excuses& excuses) {
+std::vector<std::string> missingCases(const nlohmann::json& listed,
+                                      const std::vector<frame_check::Case>& cases, const Excuses& excuses) {
     const std::string rung = listed.at("rung");
     const auto shown = shownValues(listed, cases);
     std::map<std::string, std::string> missing; // by what an excuse would call it, a setting to bless it with
@@ -90,33 +82,6 @@ std::vector<std::string> missingCases(const nlohmann::json& listed, const std::v
         if (!missing.contains(name))
             sentences.push_back(name + " failed: excused, but a case shows it, or there is no such setting");
     return sentences;
-}
-
-std::vector<std::string> differencesToList(const fs::path& folder, const std::vector<GoldenCase>& cases) {
-    const std::set<std::string> listed = readList(folder);
-    std::set<std::string> there;
-    for (const GoldenCase& golden : cases)
-        there.insert(golden.name);
-    std::vector<std::string> sentences;
-    for (const std::string& name : listed)
-        if (!there.contains(name))
-            sentences.push_back(name + " failed: the case is gone; if that is meant, take it out of " +
-                                (folder / "cases.txt").string());
-    for (const std::string& name : there)
-        if (!listed.contains(name))
-            sentences.push_back(name + " failed: not in " + (folder / "cases.txt").string() +
-                                "; tests/bless adds what it accepts");
-    return sentences;
-}
-
-void addToList(const fs::path& folder, const std::string& name) {
-    std::set<std::string> names = readList(folder);
-    names.insert(name);
-    std::ofstream stream(folder / "cases.txt");
-    for (const std::string& one : names)
-        stream << one << "\n";
-    stream.close();
-    if (!stream) throw std::runtime_error((folder / "cases.txt").string() + ": cannot be written");
 }
 
 } // namespace gll::test

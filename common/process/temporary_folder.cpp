@@ -1,5 +1,5 @@
 // Making temporary folders and removing them again.
-#include "support/temporary_folder.hpp"
+#include "process/temporary_folder.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -8,11 +8,11 @@
 #include <stdexcept>
 #include <string>
 
-namespace gll::test {
+namespace gll {
 namespace fs = std::filesystem;
 
 TemporaryFolder::TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "gl-ladder-test-XXXXXX").string();
+    std::string name = (fs::temp_directory_path() / "gl-ladder-XXXXXX").string();
     if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(name + ": no folder can be made there");
     path_ = fs::canonical(name);
 }
@@ -45,4 +45,4 @@ std::string contents(const fs::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-} // namespace gll::test
+} // namespace gll

@@ -1,0 +1,33 @@
+// A folder that is there as long as its object lives, and what lies in files.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gll {
+
+class TemporaryFolder {
+  public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }
+    std::filesystem::path operator/(const std::filesystem::path& name) const { return path_ / name; }
+
+    // Writes a file, and the folders that it lies in; returns its path.
+    std::filesystem::path write(const std::filesystem::path& name, std::string_view text) const;
+    // What lies in it, at any depth, by name.
+    std::vector<std::string> listing() const;
+
+  private:
+    std::filesystem::path path_;
+};
+
+// All bytes of a file; nothing where it cannot be read.
+std::string contents(const std::filesystem::path& file);
+
+} // namespace gll

@@ -1,0 +1,89 @@
+// frame_check as people and CI call it: exit codes, and one line that says what is wrong.
+#include "frame_check/bless.hpp"
+#include "pictures.hpp"
+#include "support/messages.hpp"
+#include "support/process.hpp"
+
+#include <gtest/gtest.h>
+
+namespace gll::test {
+namespace {
+
+Result frameCheck(const std::vector<std::string>& arguments,
+                  const std::map<std::string, std::optional<std::string>>& environment = {}) {
+    auto all = environment;
+    all.insert({"GITHUB_ACTIONS", std::nullopt});
+    return run({FRAME_CHECK, arguments, all});
+}
+
+TEST(FrameCheck, ofTwoPicturesEndsWith0Or1Or2) {
+    const TemporaryFolder folder;
+    const std::string reference = (folder / "reference.png").string();
+    const std::string near = (folder / "near.png").string();
+    const std::string far = (folder / "far.png").string();
+    saveImage(reference, grey());
+    saveImage(near, changed(3, 1));
+    saveImage(far, changed(3, 60));
+    Result result = frameCheck({near, reference});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_CONTAINS(result.out, "tolerated    near.png");
+    EXPECT_CONTAINS(result.out, "differ 3 (0.00391 %)  worst 1 at (0,0)  RMSE 1.42e-05  PSNR 97.0 dB  FLIP ");
+    result = frameCheck({far, reference, "--github"});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_CONTAINS(result.out, "DIFFERENT    far.png");
+    EXPECT_CONTAINS(result.out, "worst: (0,0) by 60 (1,0) by 60");
+    EXPECT_CONTAINS(result.out, "::error title=frame far.png DIFFERENT::differ 3");
+    EXPECT_EQ(frameCheck({far, reference, "--rule", "rmse=0.01"}).exit_code, 0);
+    EXPECT_EQ(frameCheck({near, reference, "--rule", "exact"}).exit_code, 1);
+    result = frameCheck({(folder / "none.png").string(), reference});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_CONTAINS(result.out, "NOT COMPARED none.png");
+    EXPECT_CONTAINS(result.out, "none.png: ");
+}
+
+TEST(FrameCheck, refusesWrongUsageInOneLineAndEndsWith2) {
+    const TemporaryFolder folder;
+    for (const auto& [arguments, why] : std::vector<std::pair<std::vector<std::string>, std::string>>{
+             {{}, "give two pictures"},
+             {{"a.png", "b.png", "--rule", "ssim=1"}, "is no rule"},
+             {{"--suite", folder.path().string(), "--rule", "flip=0.01"}, "would loosen every case"},
+             {{"--bless", "a"}, "needs --suite"},
+             {{"--suite", folder.path().string(), "--bless"}, "--all"},
+             {{"--no-such-option"}, "--help"}}) {
+        const Result result = frameCheck(arguments);
+        EXPECT_EQ(result.exit_code, 2) << why;
+        EXPECT_CONTAINS(result.err, "frame_check: error: ");
+        EXPECT_CONTAINS(result.err, why);
+        EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    }
+}
+
+TEST(FrameCheck, ofASuiteSaysALineACaseAndNeverBlessesInCi) {
+    const CopyingSuite copying;
+    const std::string suite = copying.path().string();
+    copying.writeCase("a", "{}");
+    copying.writeCase("b", "{}");
+    copying.draws("a", grey());
+    copying.draws("b", grey());
+    Result result = frameCheck({"--suite", suite, "--bless", "a", "b", "--because", "x"}, {{"CI", "true"}});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_CONTAINS(result.err, "CI is set here");
+    result = frameCheck({"--suite", suite, "--bless", "a", "b", "--because", "x"}, {{"CI", std::nullopt}});
+    EXPECT_EQ(result.exit_code, 0) << result.err << result.out;
+    copying.draws("b", changed(50, 1));
+    result = frameCheck({"--suite", suite, "--warnings", (copying.path() / "w.txt").string()},
+                        {{"GITHUB_ACTIONS", "true"}});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_CONTAINS(result.out, "same         cases/a");
+    EXPECT_CONTAINS(result.out, "tolerated    cases/b");
+    EXPECT_CONTAINS(result.out, "drawn by a copying machine");
+    EXPECT_CONTAINS(result.out, "2 frames: 1 same, 1 tolerated, 0 different, 0 not compared");
+    EXPECT_CONTAINS(result.out, "::warning file=");
+    EXPECT_CONTAINS(contents(copying.path() / "w.txt"), "cases/b: warning");
+    result = frameCheck({"--suite", suite, "no_such_case"});
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_CONTAINS(result.err, "no case there is called so");
+}
+
+} // namespace
+} // namespace gll::test
