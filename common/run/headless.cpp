@@ -263,8 +263,7 @@ nlohmann::ordered_json settingJson(const Setting& setting) {
                                 {"kind", kinds[static_cast<std::size_t>(setting.kind)]},
                                 {"help", setting.help}};
     if (!setting.owner.empty()) json["owner"] = setting.owner;
-    constexpr const char* roles[] = {"",        "orbit_yaw", "orbit_pitch", "orbit_zoom", "shows_divider",
-                                     "divider", "other_side"};
+    constexpr const char* roles[] = {"", "orbit_yaw", "orbit_pitch", "orbit_zoom"};
     if (setting.role != Setting::Role::none) json["role"] = roles[static_cast<std::size_t>(setting.role)];
     json["group"] = group_names[static_cast<std::size_t>(setting.group)];
     for (const Setting::Need& need : setting.needs) {

@@ -302,6 +302,9 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
     app.add_option("--size", size,
                    "pixels of the frame, 640x480 unless given; a window without it has 1280x720")
         ->type_name("WxH");
+    app.add_option("--window-state", options.window_state,
+                   "begin the window as this file has it, and leave it there in the end")
+        ->type_name("FILE");
     app.add_option("--frame", frame, "which frame, at N/60 s; the first is 1, the default 60")
         ->type_name("N");
     app.add_option("--frames", frames, "several frames, every STEP-th")->type_name("A..B[:STEP]");
@@ -364,6 +367,7 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
 
     for (const std::string& injection : injections)
         options.request.injections.push_back(parseInjection(injection));
+    options.is_frame_given = !frame.empty();
     options.is_size_given = !size.empty();
     if (options.is_size_given) options.request.size = parseSize(size);
     if (!frame.empty() && !frames.empty()) throw UsageError("--frame and --frames exclude each other");

@@ -17,7 +17,9 @@ struct Options {
     CounterKind counter = CounterKind::automatic;
     FrameRequest request;
     bool is_size_given = false;
-    std::vector<FrameRequest> batch; // in place of request, where --batch was given
+    bool is_frame_given = false;
+    std::filesystem::path window_state; // of the window; may be empty
+    std::vector<FrameRequest> batch;    // in place of request, where --batch was given
     bool is_batch = false;
     std::optional<Budget> budget;           // for the request; no batch then
     std::optional<FrameRequest> or_picture; // in place of the window, where none can be opened

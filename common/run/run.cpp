@@ -34,8 +34,12 @@ int renderInstead(Options options, const NoWindow& error, const RungInfo& info, 
 
 int showWindow(const Options& options, const RungInfo& info, Settings& settings) {
     try {
-        const auto picture = options.is_size_given ? std::optional(options.request.size) : std::nullopt;
-        return runWindow(options.request, picture, info, settings);
+        return runWindow(
+            options.request,
+            {.picture = options.is_size_given ? std::optional(options.request.size) : std::nullopt,
+             .state_file = options.window_state,
+             .is_frame_given = options.is_frame_given},
+            info, settings);
     } catch (const NoWindow& error) {
         if (!options.or_picture) throw;
         return renderInstead(options, error, info, settings);

@@ -15,10 +15,8 @@ namespace gll {
 
 struct Setting {
     enum class Kind { number, integer, toggle, choice };
-    // What others may do with it without knowing the rung: the window turns and moves the camera, and drags
-    // the divider of two compared methods while that is shown; goldens ask less of the side that is drawn
-    // like the first.
-    enum class Role { none, orbit_yaw, orbit_pitch, orbit_zoom, shows_divider, divider, other_side };
+    // What others may do with it without knowing the rung: the window turns and moves the camera.
+    enum class Role { none, orbit_yaw, orbit_pitch, orbit_zoom };
     // Where it stands in a list for people: what is taught, what is drawn with it, and how that is displayed.
     enum class Group { method, look, camera, tone };
     // Other settings, and values of theirs with which this one has an effect: any of them will do.

@@ -12,22 +12,24 @@
 namespace gll {
 namespace {
 
-constexpr const char* keys[][2] = {{"Space", "play, pause"},
-                                   {". ,", "one frame on, back"},
-                                   {"Drag", "turn the camera, move the divider or the panel's edge"},
-                                   {"Wheel", "zoom"},
-                                   {"R", "the scripted camera again"},
-                                   {"P", "write this frame and its command line"},
-                                   {"Ctrl+C", "copy the command line of this frame"},
-                                   {"Ctrl+Z, Ctrl+Y", "undo, redo"},
-                                   {"H", "hide the panel, show it"},
-                                   {"I", "look into every target: click one, drag, wheel, point at a pixel"},
-                                   {"Tab", "to the panel by keyboard; Esc goes back"},
-                                   {"Ctrl + - 0", "size of text"},
-                                   {"Save a shader", "the next frame is drawn with it"},
-                                   {"F11", "full screen"},
-                                   {"F1", "this, and away again"},
-                                   {"Esc", "close a list, leave the panel, or quit"}};
+constexpr const char* keys[][2] = {
+    {"Space", "play, pause"},
+    {". ,", "one frame on, back"},
+    {"Drag", "turn the camera, move the divider or the panel's edge"},
+    {"Wheel", "zoom"},
+    {"R", "the scripted camera again"},
+    {"P", "write this frame and its command line"},
+    {"Ctrl+C", "copy the command line of this frame"},
+    {"Ctrl+Z, Ctrl+Y", "undo, redo"},
+    {"H", "hide the panel, show it"},
+    {"I", "look into every target: click one, drag, wheel, point at a pixel"},
+    {"C, O, M", "compare: two settings, with the original ones, the recommended"},
+    {"B, X, N", "comparing: edit the other, swap, show differently"},
+    {"Tab", "to the panel by keyboard; Esc goes back"},
+    {"Ctrl + - 0", "size of text"},
+    {"F11", "full screen"},
+    {"F1", "this, and away again"},
+    {"Esc", "close a list, leave the panel, or quit"}};
 
 // Without the marks of a line of Markdown.
 std::string plain(const std::string& line) {

@@ -26,12 +26,19 @@ Layout layOut(glm::ivec2 window, float em, const LayoutWish& wish) {
     layout.picture = {{panel, 0}, {window.x - panel, window.y}};
     const auto takeFromBelow = [&](int height) {
         layout.picture.size.y -= height;
-        return Rectangle{{panel, layout.picture.size.y}, {layout.picture.size.x, height}};
+        return Rectangle{{panel, layout.picture.corner.y + layout.picture.size.y},
+                         {layout.picture.size.x, height}};
     };
     const int bar = pixels(wish.timeline_em, em);
     if (window.y < 4 * bar) return layout;
     layout.timeline = takeFromBelow(bar);
-    const int tallest = window.y / 2 - bar;
+    const int above = pixels(wish.bar_em, em);
+    if (wish.bar && layout.picture.size.y > 3 * above) {
+        layout.bar = {layout.picture.corner, {layout.picture.size.x, above}};
+        layout.picture.corner.y += above;
+        layout.picture.size.y -= above;
+    }
+    const int tallest = layout.picture.size.y - (window.y + 1) / 2;
     if (wish.strip && tallest >= pixels(lowest_strip_em, em))
         layout.strip =
             takeFromBelow(std::clamp(pixels(wish.strip_em, em), pixels(lowest_strip_em, em), tallest));
@@ -44,6 +51,7 @@ glm::ivec2 windowFor(glm::ivec2 picture, float em, const LayoutWish& wish) {
     size.x += pixels(std::max(wish.panel_em, narrowest_panel_em), em);
     size.y += pixels(wish.timeline_em, em);
     if (wish.strip) size.y += pixels(wish.strip_em, em);
+    if (wish.bar) size.y += pixels(wish.bar_em, em);
     return size;
 }
 

@@ -25,10 +25,13 @@ struct LayoutWish {
     bool strip = false; // of the passes' targets
     float strip_em = 11;
     float timeline_em = 2;
+    bool bar = false; // above the picture
+    float bar_em = 2;
 };
 
 struct Layout {
     Rectangle panel; // at the left, over the whole height
+    Rectangle bar;   // above the picture
     Rectangle picture;
     Rectangle strip;    // under the picture
     Rectangle timeline; // at the bottom

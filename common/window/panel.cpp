@@ -161,7 +161,13 @@ void Panel::presetsSection(Settings& settings, const PanelState& state, PanelAct
     ImGui::SameLine();
     if (button("Redo", state.can_redo, "Ctrl+Y")) actions.redo = true;
     ImGui::SameLine();
-    if (button("Copy command", true, "Ctrl+C: the command line that renders this very frame, for a shell"))
+    if (button("Compare", true,
+               "C: with other settings, side by side; O: with the original ones; M: with the recommended"))
+        actions.compare = true;
+    ImGui::SameLine();
+    if (button("Inspect", true, "I: what every pass leaves, pixel by pixel")) actions.inspect = true;
+    ImGui::SameLine();
+    if (button("Copy", true, "Ctrl+C: the command line that renders this very frame, for a shell"))
         actions.copy_command = true;
     ImGui::SameLine();
     if (button("Help", true, "F1: the keys, and what this rung is about")) actions.show_help = true;
@@ -305,15 +311,15 @@ PanelActions Panel::draw(const Rectangle& place, float pixels_per_unit, Settings
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
     Ui::pushBold();
-    ImGui::TextUnformatted(rung_.c_str());
+    ImGui::TextUnformatted(state.edited.empty() ? rung_.c_str() : (rung_ + "  " + state.edited).c_str());
     Ui::popFont();
     ImGui::SameLine();
-    const char* clock = state.is_gpu_time ? "GPU" : "drawn in";
+    const char* clock = state.is_gpu_time ? "GPU " : "";
     if (state.is_playing)
-        ImGui::TextDisabled("frame %d, %.0f fps, %s %.2f ms", state.frame, state.shown_per_s, clock,
+        ImGui::TextDisabled("frame %d, %.0f fps, %s%.1f ms", state.frame, state.shown_per_s, clock,
                             state.frame_time_ms);
     else
-        ImGui::TextDisabled("frame %d, paused, %s %.2f ms", state.frame, clock, state.frame_time_ms);
+        ImGui::TextDisabled("frame %d, paused, %s%.1f ms", state.frame, clock, state.frame_time_ms);
     for (const Reading& reading : state.readings)
         ImGui::Text("%s %.4g %s", labelOf(reading.name).c_str(), reading.value, reading.unit.c_str());
     presetsSection(settings, state, actions);

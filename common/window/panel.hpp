@@ -24,6 +24,7 @@ struct PanelState {
     std::vector<Reading> readings;    // of the frame shown, where the rung has some
     double searching_s = 0;           // how long a search within a budget has been under way; 0: none is
     std::string search_answer;        // what the last search found, or why it did not
+    std::string edited;               // "A" or "B", where two are compared
     bool can_undo = false;
     bool can_redo = false;
     bool waits_for_display = true; // vertical sync
@@ -38,6 +39,8 @@ struct PanelActions {
     bool redo = false;
     bool copy_command = false;
     bool show_help = false;
+    bool compare = false; // or no longer
+    bool inspect = false;
     std::optional<bool> wait_for_display;
     std::optional<float> text_size;
 };

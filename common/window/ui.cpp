@@ -111,10 +111,14 @@ void Ui::makeFonts(float em_px, float pixels_per_unit) {
     ImGui_ImplOpenGL3_CreateFontsTexture();
 }
 
-void Ui::begin(float wish) {
+void Ui::setWish(float wish) {
     const float em_px = std::round(em_at_scale_1 * window_.contentScale() * std::clamp(wish, 0.5F, 3.0F));
     const float pixels_per_unit = window_.pixelsPerUnit();
     if (em_px != em_px_ || pixels_per_unit != pixels_per_unit_) makeFonts(em_px, pixels_per_unit);
+}
+
+void Ui::begin(float wish) {
+    setWish(wish);
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();

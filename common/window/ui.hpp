@@ -26,6 +26,9 @@ class Ui {
     // Draws over the framebuffer 0, which must be bound.
     void end();
 
+    // The wish alone, for layouts before the first frame.
+    void setWish(float wish);
+
     // Pixels: what layouts divide the window by.
     float emPx() const { return em_px_; }
 

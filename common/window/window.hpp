@@ -3,6 +3,7 @@
 
 #include "rung/request.hpp"
 
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -18,9 +19,16 @@ struct NoWindow : std::runtime_error {
     std::string reason;
 };
 
-// Opens a window and renders until it is closed. picture: the size of the picture to begin with; without it,
-// the window has 1280x720. Throws NoWindow before anything was drawn. Returns 0.
-int runWindow(const FrameRequest& request, std::optional<glm::ivec2> picture, const RungInfo& info,
+// What is asked of the window itself.
+struct WindowRequest {
+    std::optional<glm::ivec2> picture; // its size to begin with; without it, the window has 1280x720
+    std::filesystem::path state_file;  // --window-state: what to begin with, where it is there, and to leave
+    bool is_frame_given = false;       // the request's frame is asked for, whatever the file has
+};
+
+// Opens a window and renders until it is closed. Throws NoWindow before anything was drawn,
+// std::runtime_error where the state's file cannot be read or written. Returns 0.
+int runWindow(const FrameRequest& request, const WindowRequest& wished, const RungInfo& info,
               Settings& settings);
 
 } // namespace gll

@@ -1,15 +1,10 @@
 #version 330 core
-// Scene light to display light: exposed, tone mapped, encoded. Or its luminance in false colours. Drawn a second time
-// with other definitions, for what is right of the divider.
+// Scene light to display light: exposed, tone mapped, encoded. Or its luminance in false colours.
 #include "lib/tone_map.glsl"
 #include "lib/encode.glsl"
 
 uniform sampler2D hdr;
 uniform float exposure; // factor on scene light
-#if RIGHT_SIDE
-uniform float split_px; // where the divider is, from the left
-uniform float frame_width_px;
-#endif
 
 in vec2 uv;
 out vec4 display_color; // encoded, [0, 1]
@@ -40,9 +35,6 @@ vec3 falseColor(vec3 exposed) {
 
 // excerpt: display
 void main() {
-#if RIGHT_SIDE
-    if (gl_FragCoord.x < split_px) discard;
-#endif
     vec3 exposed = texelFetch(hdr, ivec2(gl_FragCoord.xy), 0).rgb * exposure;
 #if VIEW == VIEW_STOPS
     vec3 color = uv.y < 0.035 ? stopColor(uv.x * 16.0 - 8.0) : falseColor(exposed);
@@ -50,8 +42,5 @@ void main() {
     vec3 color = toneMap(exposed);
 #endif
     display_color = vec4(encode(color), 1.0);
-#if RIGHT_SIDE
-    if (gl_FragCoord.x < split_px + max(1.0, frame_width_px / 400.0)) display_color = vec4(1.0);
-#endif
 }
 // end excerpt

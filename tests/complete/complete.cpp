@@ -60,8 +60,7 @@ std::vector<std::string> missingCases(const nlohmann::json& listed,
         const std::string name = setting.at("name");
         const auto found = shown.find(name);
         const std::set<std::string> values = found == shown.end() ? std::set<std::string>{} : found->second;
-        if (setting.contains("choices") && setting.value("owner", rung) == rung &&
-            setting.value("role", "") != "other_side") {
+        if (setting.contains("choices") && setting.value("owner", rung) == rung) {
             for (const std::string choice : setting.at("choices"))
                 if (!isDefault(setting, choice) && !values.contains(choice))
                     missing[name + "=" + choice] = name + "=" + choice;

@@ -18,9 +18,8 @@ Excuses readExcuses(const std::filesystem::path& json_file, const std::string& r
 
 // A sentence for each case that is missing. listed: what the rung prints for --settings --json. Asked for is
 // a case for every choice of a setting but its default, and one off its default for every toggle and number.
-// Of settings that another rung owns one choice will do, since that rung's goldens show the others, and so of
-// the other side of a comparison (by its role), which is drawn by the same code as the first. An excuse that
-// is not needed is said too.
+// Of settings that another rung owns one choice will do, since that rung's goldens show the others. An excuse
+// that is not needed is said too.
 std::vector<std::string> missingCases(const nlohmann::json& listed,
                                       const std::vector<frame_check::Case>& cases, const Excuses& excuses);
 

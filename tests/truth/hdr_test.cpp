@@ -47,15 +47,6 @@ class HdrTruth : public testing::Test {
                     {{"tone_map", tone_map}, {"format", "rgba32f"}, {"brightness", 3}}, "",
                     {std::string("scene:70,50:") + value});
         }
-        ask("compare.png",
-            {{"tone_map", "reinhard"},
-             {"brightness", 3},
-             {"format", "rgba32f"},
-             {"compare", true},
-             {"split", 0.25},
-             {"right_format", "rgba32f"},
-             {"right_tone_map", "aces_hill"}},
-            "", none);
         ask("stops.png",
             {{"tone_map", "clamp"},
              {"format", "rgba32f"},
@@ -158,18 +149,6 @@ TEST_F(HdrTruth, aPixelThatIsNoNumberOrInfiniteStaysOnePixelAndBecomesItsLimit) 
                 EXPECT_NEAR(bad[hit][c], expected[c], 0.51) << tone_map << " " << value;
         }
     }
-}
-
-TEST_F(HdrTruth, theDividerShowsOneMethodLeftAndTheOtherRight) {
-    const Pixels both = read("compare.png");
-    const Pixels left = read("reinhard.png");
-    const Pixels right = read("aces_hill.png");
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const auto i = static_cast<std::size_t>(y * width + x);
-            const glm::dvec3 expected = x < 40 ? left[i] : x == 40 ? glm::dvec3(255) : right[i];
-            ASSERT_EQ(both[i], expected) << x << "," << y;
-        }
 }
 
 TEST_F(HdrTruth, aPictureOfOnesOwnIsDrawnAsItIsAndLargerOrSmallerAboutItsMiddle) {

@@ -95,6 +95,7 @@ resized() {
 resize() { xdotool windowsize "$window" "${1%x*}" "${1#*x}"; }
 find_window() { window=$(xdotool search --onlyvisible --name "^$rung - GL Ladder" 2>/dev/null | head -1) && [ -n "$window" ]; }
 is_unmapped() { xwininfo -id "$window" | grep -q IsUnMapped; }
+ended() { ! kill -0 "$window_process" 2>/dev/null; }
 is_mapped() { xwininfo -id "$window" | grep -q IsViewable; }
 focus() { xdotool windowfocus --sync "$window"; }
 
@@ -109,4 +110,3 @@ unset WAYLAND_DISPLAY
 export XDG_RUNTIME_DIR=$work/runtime
 export XDG_CONFIG_HOME=$work/config
 mkdir -m 700 "$XDG_RUNTIME_DIR"
-

@@ -1,6 +1,5 @@
 // 01_hdr: a dark hall whose window is hundreds of times brighter than its walls, drawn into a target that
-// keeps such values or one that does not, and brought into a display's range by one tone map or by two, side
-// by side.
+// keeps such values or one that does not, and brought into a display's range by a tone map.
 #include "01_hdr/boxes.hpp"
 #include "01_hdr/guard.hpp"
 #include "01_hdr/tone_map.hpp"
@@ -27,24 +26,13 @@ struct HdrOptions {
     Guard guard{all};
     Choice view = all.choice("view", "picture", {"picture", "stops"},
                              "the picture, or luminance in bands of a stop with clipped pixels striped");
-    Toggle compare = all.toggle("compare", false, "another method to the right of a divider");
-    Number split =
-        all.number("split", 0.5, 0, 1, "where the divider is, of the width; drag it in the window");
-    Choice right_format = all.choice("right_format", "rgba16f", formats, "the format to the right");
-    Choice right_tone_map = all.choice("right_tone_map", "clamp", {tone_maps.begin(), tone_maps.end()},
-                                       "the tone map to the right");
-    Number right_exposure_ev = all.number("right_exposure_ev", 0, -16, 16, "exposure to the right, stops");
     Number brightness = all.number("brightness", 1, 0, 1e6, "factor on all light of the scene");
     OrbitSettings orbit{all};
     // end excerpt
 
     // What the charts show to be best; of the formats that is the original's own.
     HdrOptions() {
-        all.role(Setting::Role::shows_divider, {"compare"});
-        all.role(Setting::Role::divider, {"split"});
-        all.role(Setting::Role::other_side, {"right_format", "right_tone_map", "right_exposure_ev"});
         all.group(Setting::Group::look, {"view", "brightness"});
-        all.needs({"split", "right_format", "right_tone_map", "right_exposure_ev"}, {{"compare", {"on"}}});
         all.dial({"format", {"rgba32f", "rgba16f", "r11f_g11f_b10f", "rgb10_a2", "rgba8"}});
         all.preset({"recommended", "the tone map that turns hues least", {{"tone_map", "pbr_neutral"}}});
     }
@@ -92,28 +80,21 @@ class Hdr final : public Rung {
         : shaders_(resources.shaders), options_(options), image_(resources) {}
 
     void render(Frame& frame) override {
-        remake(hdr_, "hdr", options_.format, frame.size());
-        drawScene(frame, "scene", hdr_);
+        // excerpt: target
+        // Made anew where the format or the size has changed.
+        hdr_.remake(
+            {{.name = "hdr", .format = formatNamed(options_.format.name()), .filter = Filter::nearest},
+             {.name = "hdr_depth", .format = Format::depth24, .filter = Filter::nearest}},
+            frame.size());
+        // end excerpt
+        drawScene(frame);
         display(frame);
-        if (!options_.compare) return;
-        remake(right_hdr_, "right_hdr", options_.right_format, frame.size());
-        drawScene(frame, "right_scene", right_hdr_);
-        displayRight(frame);
     }
 
   private:
-    // excerpt: target
-    // The scene's target in that format: made anew where the format or the size has changed.
-    static void remake(Framebuffer& target, const std::string& name, const Choice& format, glm::ivec2 size) {
-        target.remake({{.name = name, .format = formatNamed(format.name()), .filter = Filter::nearest},
-                       {.name = name + "_depth", .format = Format::depth24, .filter = Filter::nearest}},
-                      size);
-    }
-    // end excerpt
-
     // excerpt: scene
-    void drawScene(Frame& frame, const std::string& pass, const Framebuffer& target) {
-        if (image_) return image_.draw(frame, pass, target);
+    void drawScene(Frame& frame) {
+        if (image_) return image_.draw(frame, "scene", hdr_);
         const float time_s = frame.time_s();
         const float sway = std::sin(time_s * 0.4F);
         const Camera camera = options_.orbit.apply({.position = {0.9F * sway, 1.75F, 11.2F},
@@ -132,7 +113,7 @@ class Hdr final : public Rung {
         const float pixel_angle = 2 * std::tan(glm::radians(camera.vertical_field_of_view_deg) / 2) /
                                   static_cast<float>(frame.size().y);
         frame.pass(
-            pass, target,
+            "scene", hdr_,
             {.program = shaders_.program("01_hdr/hall.vert", "01_hdr/hall.frag",
                                          {{"LAMPS", std::to_string(lamp_count)}}),
              .uniforms = {{"clip_from_world", camera.clipFromView(frame.aspect()) * camera.viewFromWorld()},
@@ -150,42 +131,21 @@ class Hdr final : public Rung {
     }
     // end excerpt
 
-    Defines displayDefines(const char* right_side) const {
-        return options_.display.defines() + options_.guard.defines() + options_.view.defines() +
-               Defines{{"RIGHT_SIDE", right_side}};
-    }
-
     // excerpt: display
     void display(Frame& frame) {
-        const Program& program = shaders_.fullScreen("01_hdr/display.frag", displayDefines("0"));
+        const Program& program =
+            shaders_.fullScreen("01_hdr/display.frag", options_.display.defines() + options_.guard.defines() +
+                                                           options_.view.defines());
         frame.pass("display", frame.presented(),
                    {.program = program, .inputs = {{"hdr", hdr_.color()}}, .part = options_.display.part()});
     }
     // end excerpt
-
-    // The same again with the other settings, over what is to the right of the divider.
-    void displayRight(Frame& frame) {
-        Defines defines = displayDefines("1");
-        const Defines right = options_.right_tone_map.defines();
-        for (Define& define : defines)
-            if (define.name == "TONE_MAP")
-                define.value = right.back().value; // both choices list the same curves
-        const Program& program = shaders_.fullScreen("01_hdr/display.frag", defines);
-        const auto width = static_cast<float>(frame.size().x);
-        frame.pass("right_display", frame.presented(),
-                   {.program = program,
-                    .inputs = {{"hdr", right_hdr_.color()}},
-                    .uniforms = {{"split_px", std::round(options_.split * width)}, {"frame_width_px", width}},
-                    .part = {.uniforms = {{"exposure", std::exp2(options_.right_exposure_ev)},
-                                          {"white_point", options_.display.white_point}}}});
-    }
 
     ShaderLibrary& shaders_;
     const Options& options_;
     SceneImage image_; // --image
     Mesh hall_ = makeHall();
     Framebuffer hdr_;
-    Framebuffer right_hdr_;
 };
 
 } // namespace

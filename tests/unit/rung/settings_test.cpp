@@ -224,11 +224,11 @@ TEST(Settings, ofSeveralRungsNameTheOneThatOwnsThem) {
 
 TEST(Settings, sayWhatOthersMayDoWithThem) {
     Settings settings;
-    settings.number("split", 0.5, 0, 1, "help");
-    EXPECT_EQ(settings.at("split").role, Setting::Role::none);
-    settings.role(Setting::Role::divider, {"split"});
-    EXPECT_EQ(settings.at("split").role, Setting::Role::divider);
-    EXPECT_THROW(settings.role(Setting::Role::divider, {"misspelt"}), UsageError);
+    settings.number("yaw", 0.5, 0, 1, "help");
+    EXPECT_EQ(settings.at("yaw").role, Setting::Role::none);
+    settings.role(Setting::Role::orbit_yaw, {"yaw"});
+    EXPECT_EQ(settings.at("yaw").role, Setting::Role::orbit_yaw);
+    EXPECT_THROW(settings.role(Setting::Role::orbit_yaw, {"misspelt"}), UsageError);
 }
 
 } // namespace
