@@ -5,6 +5,7 @@
 #include "window/ui.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <imgui.h>
 
 namespace gll {
@@ -17,15 +18,19 @@ bool chosenButton(const char* label, bool is_chosen) {
     return pressed;
 }
 
-void numbers(const Stage& stage, const Comparison& comparison) {
+void numbers(const Stage& stage, const Comparison& comparison, bool shows_times) {
+    std::string text = "measuring";
+    char words[96];
+    if (const auto& measured = comparison.measured()) {
+        std::snprintf(words, sizeof words, "FLIP %.4f, RMSE %.4f, %.1f %% of pixels", measured->flip,
+                      measured->rmse, 100.0 * measured->pixels / std::max(measured->of, 1));
+        text = words;
+    }
+    std::snprintf(words, sizeof words, "   A %.1f ms, B %.1f ms", stage.timeMs(Stage::a),
+                  stage.timeMs(Stage::b));
+    if (shows_times) text += words;
     ImGui::SameLine();
-    if (const auto& measured = comparison.measured())
-        ImGui::TextDisabled("FLIP %.4f, RMSE %.4f, %.1f %% of pixels   A %.1f ms, B %.1f ms", measured->flip,
-                            measured->rmse, 100.0 * measured->pixels / std::max(measured->of, 1),
-                            stage.timeMs(Stage::a), stage.timeMs(Stage::b));
-    else
-        ImGui::TextDisabled("measuring   A %.1f ms, B %.1f ms", stage.timeMs(Stage::a),
-                            stage.timeMs(Stage::b));
+    ImGui::TextDisabled("%s", text.c_str());
     tooltip(
         "How far B is from A, of what the display is sent: FLIP (0 to 1, as the eye sees it), the root mean "
         "squared difference (0 to 1), and how many pixels differ at all. Then what drawing each took.");
@@ -57,7 +62,8 @@ void pill(float x, float y, const std::string& text, bool right, float most_widt
 
 } // namespace
 
-void drawCompareBar(const Rectangle& place, float pixels_per_unit, Stage& stage, Comparison& comparison) {
+void drawCompareBar(const Rectangle& place, float pixels_per_unit, Stage& stage, Comparison& comparison,
+                    bool shows_times) {
     const float em = ImGui::GetFontSize();
     nextWindowAt(place, pixels_per_unit);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.4F * em, 0.25F * em});
@@ -95,7 +101,7 @@ void drawCompareBar(const Rectangle& place, float pixels_per_unit, Stage& stage,
     ImGui::SameLine(0, em);
     if (ImGui::Button("Off")) comparison.mode = Comparison::Mode::off;
     tooltip("C");
-    numbers(stage, comparison);
+    numbers(stage, comparison, shows_times);
     ImGui::End();
     ImGui::PopStyleVar(2);
 }

@@ -27,6 +27,8 @@ constexpr const char* keys[][2] = {
     {"B, X, N", "comparing: edit the other, swap, show differently"},
     {"Tab", "to the panel by keyboard; Esc goes back"},
     {"Ctrl + - 0", "size of text"},
+    {"Save a shader", "the next frame is drawn with it"},
+    {"Shift+P", "write a picture of the whole window"},
     {"F11", "full screen"},
     {"F1", "this, and away again"},
     {"Esc", "close a list, leave the panel, or quit"}};

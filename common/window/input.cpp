@@ -40,7 +40,7 @@ void RungWindow::key(int key, bool is_repeated, bool with_control, bool with_shi
     else if (!is_repeated && functionKey(key))
         return;
     else if (!ui_->hasKeyboard())
-        plainKey(key, is_repeated);
+        plainKey(key, is_repeated, with_shift);
 }
 
 void RungWindow::controlKey(int key, bool with_shift) {
@@ -78,13 +78,13 @@ void RungWindow::escape() {
         glfwSetWindowShouldClose(context_.window(), GLFW_TRUE);
 }
 
-void RungWindow::plainKey(int key, bool is_repeated) {
+void RungWindow::plainKey(int key, bool is_repeated, bool with_shift) {
     if (key == GLFW_KEY_PERIOD) timeline_.step(1);
     if (key == GLFW_KEY_COMMA) timeline_.step(-1);
     if (is_repeated) return;
     if (key == GLFW_KEY_SPACE) timeline_.play(!timeline_.isPlaying());
     if (key == GLFW_KEY_R) resetCamera();
-    if (key == GLFW_KEY_P) save_asked_ = true;
+    if (key == GLFW_KEY_P) (with_shift ? window_save_asked_ : save_asked_) = true;
     if (key == GLFW_KEY_H) wish_.panel = !wish_.panel;
     if (key == GLFW_KEY_I) wish_.strip = !wish_.strip;
     if (key == GLFW_KEY_TAB) panel_.focus();

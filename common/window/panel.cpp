@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cfloat>
+#include <cstdio>
 #include <imgui.h>
 #include <map>
 
@@ -280,6 +281,9 @@ void Panel::timesSection(const PanelState& state, PanelActions& actions) {
     bool waits = state.waits_for_display;
     if (ImGui::Checkbox("Wait for the display", &waits)) actions.wait_for_display = waits;
     tooltip("Vertical sync: no more frames than the display shows.");
+    bool shows = state.shows_times;
+    if (ImGui::Checkbox("Show times", &shows)) actions.show_times = shows;
+    tooltip("Off, a window that stands still is the same picture at every moment.");
     float size = state.text_size;
     ImGui::SetNextItemWidth(-8 * ImGui::GetFontSize());
     ImGui::SliderFloat("Size of text", &size, 0.5F, 3, "%.2f", ImGuiSliderFlags_AlwaysClamp);
@@ -289,7 +293,7 @@ void Panel::timesSection(const PanelState& state, PanelActions& actions) {
     if (ImGui::IsItemDeactivatedAfterEdit()) actions.text_size = held;
     tooltip("Ctrl and plus, minus or 0.");
     if (ImGui::BeginTable("times", 2, ImGuiTableFlags_NoSavedSettings)) {
-        for (const PassTime& pass : state.pass_times) {
+        for (const PassTime& pass : state.shows_times ? state.pass_times : std::vector<PassTime>()) {
             ImGui::TableNextRow();
             ImGui::TableNextColumn();
             ImGui::TextUnformatted(pass.name.c_str());
@@ -314,12 +318,13 @@ PanelActions Panel::draw(const Rectangle& place, float pixels_per_unit, Settings
     ImGui::TextUnformatted(state.edited.empty() ? rung_.c_str() : (rung_ + "  " + state.edited).c_str());
     Ui::popFont();
     ImGui::SameLine();
-    const char* clock = state.is_gpu_time ? "GPU " : "";
-    if (state.is_playing)
-        ImGui::TextDisabled("frame %d, %.0f fps, %s%.1f ms", state.frame, state.shown_per_s, clock,
-                            state.frame_time_ms);
-    else
-        ImGui::TextDisabled("frame %d, paused, %s%.1f ms", state.frame, clock, state.frame_time_ms);
+    std::string line = "frame " + std::to_string(state.frame);
+    char times[64];
+    std::snprintf(times, sizeof times, ", %.0f fps", state.shown_per_s);
+    line += !state.is_playing ? ", paused" : state.shows_times ? times : "";
+    std::snprintf(times, sizeof times, ", %s%.1f ms", state.is_gpu_time ? "GPU " : "", state.frame_time_ms);
+    if (state.shows_times) line += times;
+    ImGui::TextDisabled("%s", line.c_str());
     for (const Reading& reading : state.readings)
         ImGui::Text("%s %.4g %s", labelOf(reading.name).c_str(), reading.value, reading.unit.c_str());
     presetsSection(settings, state, actions);

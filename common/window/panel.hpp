@@ -29,6 +29,7 @@ struct PanelState {
     bool can_redo = false;
     bool waits_for_display = true; // vertical sync
     float text_size = 1;           // of what the display wants
+    bool shows_times = true;       // which are others at every moment
 };
 
 // What was asked for in the panel in the last draw().
@@ -42,6 +43,7 @@ struct PanelActions {
     bool compare = false; // or no longer
     bool inspect = false;
     std::optional<bool> wait_for_display;
+    std::optional<bool> show_times;
     std::optional<float> text_size;
 };
 

@@ -36,7 +36,7 @@ class RungWindow {
     void key(int key, bool is_repeated, bool with_control, bool with_shift);
     void controlKey(int key, bool with_shift);
     bool functionKey(int key); // whether it was one: they mean the same wherever the keyboard is
-    void plainKey(int key, bool is_repeated);
+    void plainKey(int key, bool is_repeated, bool with_shift);
     void compareKey(int key);
     void escape();
     void mouseButton(bool is_pressed);
@@ -81,6 +81,7 @@ class RungWindow {
     std::string freeStem() const;        // a file's name without its ending that nothing here has
     void copyCommand();
     void save();
+    void saveWindow(glm::ivec2 window);
     void record(const Timeline::Loop& range);
     void showWarnings();
     void show(const std::string& message); // as long as it takes to read
@@ -119,6 +120,7 @@ class RungWindow {
     std::string message_;
     double message_until_s_ = 0;
     bool save_asked_ = false;
+    bool window_save_asked_ = false;
     Drag drags_ = Drag::nothing;
     bool shows_edge_ = false;
     glm::dvec2 cursor_{0};

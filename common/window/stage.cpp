@@ -192,6 +192,8 @@ void Stage::load(const RungFiles& given) {
     make(fresh, given);
     fresh.values = at(a).values;
     given_ = given;
+    at(a).live.reset(); // before the renderer that it watches for
+    at(b).live.reset();
     at(a) = std::move(fresh);
     Side other;
     other.values = at(b).values;

@@ -75,6 +75,7 @@ RungWindow::RungWindow(const FrameRequest& request, const WindowRequest& wished,
     setTextSize(preferences.text_size);
     ui_->setWish(state_.text_size);
     state_.waits_for_display = preferences.waits_for_display;
+    state_.shows_times = preferences.shows_times;
     glfwSwapInterval(state_.waits_for_display ? 1 : 0);
     if (has_state) adopt(state);
     if (wished.is_frame_given) timeline_.seek(request.first_frame);
@@ -167,6 +168,7 @@ void RungWindow::present(glm::ivec2 window) {
     drawPanels();
     drawMessages();
     ui_->end();
+    if (window_save_asked_) saveWindow(window);
     attendSearch();
     context_.debugLog().check("OpenGL, presenting");
     glfwSwapBuffers(context_.window());
@@ -211,7 +213,8 @@ void RungWindow::presentPictures(glm::ivec2 window) {
 void RungWindow::drawPanels() {
     const float pixels_per_unit = context_.pixelsPerUnit();
     if (layout_.panel.isShown()) attend(panel_.draw(layout_.panel, pixels_per_unit, settings_, state_));
-    if (layout_.bar.isShown()) drawCompareBar(layout_.bar, pixels_per_unit, stage_, comparison_);
+    if (layout_.bar.isShown())
+        drawCompareBar(layout_.bar, pixels_per_unit, stage_, comparison_, state_.shows_times);
     if (isComparing() && !isInspecting())
         drawCompareLabels(layout_.picture, pixels_per_unit, stage_, comparison_, now());
     if (layout_.timeline.isShown()) {
@@ -223,7 +226,8 @@ void RungWindow::drawPanels() {
     }
     if (isInspecting()) inspector_.drawBar(layout_.picture, pixels_per_unit, ui_->emPx());
     if (layout_.strip.isShown())
-        inspector_.drawStrip(layout_.strip, pixels_per_unit, state_.pass_times,
+        inspector_.drawStrip(layout_.strip, pixels_per_unit,
+                             state_.shows_times ? state_.pass_times : std::vector<PassTime>(),
                              inspector_.probe(stage_.renderer(stage_.edited()).presented(), pictureTexel()));
     help_.draw(layout_.picture, pixels_per_unit);
 }
@@ -247,6 +251,7 @@ void RungWindow::attend(const PanelActions& asked) {
     if (asked.text_size) setTextSize(double(*asked.text_size));
     if (asked.stop_search) search_.reset();
     if (asked.search) startSearch(*asked.search);
+    if (asked.show_times) state_.shows_times = *asked.show_times;
     if (asked.wait_for_display) {
         state_.waits_for_display = *asked.wait_for_display;
         glfwSwapInterval(state_.waits_for_display ? 1 : 0);
@@ -349,6 +354,35 @@ void RungWindow::save() {
     }
 }
 
+// As it is drawn, with all panels: for a talk, a page, or a question to others.
+void RungWindow::saveWindow(glm::ivec2 window) {
+    window_save_asked_ = false;
+    std::vector<std::uint8_t> pixels(static_cast<std::size_t>(window.x) * static_cast<std::size_t>(window.y) *
+                                     3);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    glReadPixels(0, 0, window.x, window.y, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
+    const std::ptrdiff_t row = std::ptrdiff_t(window.x) * 3;
+    for (int y = 0; y < window.y / 2; ++y) // OpenGL's first row is the bottom one
+        std::swap_ranges(pixels.begin() + y * row, pixels.begin() + (y + 1) * row,
+                         pixels.begin() + (window.y - 1 - y) * row);
+    Image image;
+    image.width = window.x;
+    image.height = window.y;
+    image.channels = 3;
+    image.color_space = ColorSpace::srgb;
+    image.pixels = std::move(pixels);
+    std::string file = info_.name + "_window.png";
+    for (int i = 2; std::filesystem::exists(file); ++i)
+        file = info_.name + "_window_" + std::to_string(i) + ".png";
+    try {
+        saveImage(file, image);
+        print("wrote " + file); // not in the window, whose next picture would have it
+    } catch (const std::runtime_error& error) {
+        say(error.what());
+    }
+}
+
 // The first of them: all are on the terminal, and a window full of them would hide the picture.
 void RungWindow::showWarnings() {
     const std::vector<std::string> lines = stage_.takeWarnings();
@@ -371,7 +405,8 @@ WindowState RungWindow::windowState() const {
                             .strip = wish_.strip,
                             .panel_em = double(wish_.panel_em),
                             .text_size = double(state_.text_size),
-                            .waits_for_display = state_.waits_for_display},
+                            .waits_for_display = state_.waits_for_display,
+                            .shows_times = state_.shows_times},
             .rung = info_.name,
             .picture = layout_.picture.size,
             .frame = timeline_.frame(),

@@ -24,7 +24,8 @@ Json preferencesJson(const WindowPreferences& preferences) {
             {"strip", preferences.strip},
             {"panel_em", preferences.panel_em},
             {"text_size", preferences.text_size},
-            {"waits_for_display", preferences.waits_for_display}};
+            {"waits_for_display", preferences.waits_for_display},
+            {"shows_times", preferences.shows_times}};
 }
 
 std::string shortest(double value) {
@@ -106,6 +107,7 @@ void readPreferences(Reader& reader, WindowPreferences& preferences) {
     reader.read("panel_em", preferences.panel_em, 1, 1000);
     reader.read("text_size", preferences.text_size, 0.5, 3);
     reader.read("waits_for_display", preferences.waits_for_display);
+    reader.read("shows_times", preferences.shows_times);
 }
 
 Json parsed(const fs::path& file) {

@@ -20,6 +20,7 @@ struct WindowPreferences {
     double panel_em = LayoutWish().panel_em;
     double text_size = 1;
     bool waits_for_display = true;
+    bool shows_times = true;
 };
 
 // All of it.
