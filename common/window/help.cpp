@@ -25,7 +25,7 @@ constexpr const char* keys[][2] = {
     {"I", "look into every target: click one, drag, wheel, point at a pixel"},
     {"C, O, M", "compare: two settings, with the original ones, the recommended"},
     {"B, X, N", "comparing: edit the other, swap, show differently"},
-    {"Tab", "to the panel by keyboard; Esc goes back"},
+    {"F2", "to the panel: arrows, Space, Tab; Esc goes back"},
     {"Ctrl + - 0", "size of text"},
     {"Save a shader", "the next frame is drawn with it"},
     {"Shift+P", "write a picture of the whole window"},

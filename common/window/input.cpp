@@ -57,6 +57,8 @@ void RungWindow::controlKey(int key, bool with_shift) {
 bool RungWindow::functionKey(int key) {
     if (key == GLFW_KEY_F1)
         help_.visible = !help_.visible;
+    else if (key == GLFW_KEY_F2)
+        panel_.focus();
     else if (key == GLFW_KEY_F11)
         context_.setFullScreen(!context_.isFullScreen());
     else if (key == GLFW_KEY_ESCAPE)
@@ -67,9 +69,11 @@ bool RungWindow::functionKey(int key) {
 }
 
 void RungWindow::escape() {
-    if (ui_->escape()) return;
+    if (ui_->closePopup()) return;
     if (help_.visible)
         help_.visible = false;
+    else if (ui_->leavePanel())
+        return;
     else if (isInspecting())
         inspector_.select(std::nullopt);
     else if (isComparing())
@@ -87,7 +91,6 @@ void RungWindow::plainKey(int key, bool is_repeated, bool with_shift) {
     if (key == GLFW_KEY_P) (with_shift ? window_save_asked_ : save_asked_) = true;
     if (key == GLFW_KEY_H) wish_.panel = !wish_.panel;
     if (key == GLFW_KEY_I) wish_.strip = !wish_.strip;
-    if (key == GLFW_KEY_TAB) panel_.focus();
     compareKey(key);
 }
 

@@ -329,7 +329,7 @@ PanelActions Panel::draw(const Rectangle& place, float pixels_per_unit, Settings
         ImGui::Text("%s %.4g %s", labelOf(reading.name).c_str(), reading.value, reading.unit.c_str());
     presetsSection(settings, state, actions);
     ImGui::Separator();
-    ImGui::BeginChild("##sections");
+    ImGui::BeginChild("##sections", {0, 0}, false, ImGuiWindowFlags_NavFlattened);
     settingsSection(settings);
     if (!settings.dials().empty() && ImGui::CollapsingHeader("Budget")) budgetSection(state, actions);
     pass_times_open_ = ImGui::CollapsingHeader("Window and times");

@@ -143,8 +143,9 @@ void Ui::keepCursor(bool is_kept) {
 
 bool Ui::isPopupOpen() { return ImGui::IsPopupOpen("", any_popup); }
 
-bool Ui::escape() {
-    if (isPopupOpen()) return shared.close_popup = true;
+bool Ui::closePopup() { return shared.close_popup = isPopupOpen(); }
+
+bool Ui::leavePanel() {
     if (!hasKeyboard()) return false;
     ImGui::SetWindowFocus(nullptr);
     return true;

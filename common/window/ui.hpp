@@ -40,8 +40,9 @@ class Ui {
     // The mouse cursor is somebody else's to set.
     void keepCursor(bool is_kept);
 
-    // Closes the list of choices that is open, else ends moving about by keyboard. False where neither is.
-    bool escape();
+    // Closes the list of choices that is open, and ends moving about by keyboard. False where none is.
+    bool closePopup();
+    bool leavePanel();
 
     static bool isPopupOpen();
     // The fonts of what is drawn next, until popFont().
