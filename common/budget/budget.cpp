@@ -118,6 +118,7 @@ Command budgetCommand(const Budget& budget, const FrameRequest& request, const s
     command.arguments.insert(
         command.arguments.end(),
         {"--budget", std::string(kindName(budget.kind)) + "=" + number(budget.limit), "--json"});
+    command.environment[progress_variable] = "1";
     return command;
 }
 

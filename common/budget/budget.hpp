@@ -66,8 +66,9 @@ std::optional<BudgetResult> searchBudget(Renderer& renderer, const FrameRequest&
 std::string budgetText(const BudgetResult& result);
 std::string budgetJson(const BudgetResult& result, const RungInfo& info); // one line, the four among it
 
-// For a window, which goes on drawing meanwhile: this program run a second time to search, and what came of
-// it.
+// For a window, which goes on drawing meanwhile: this program run a second time to search, which says on its
+// standard error what it is at, and what came of it.
+inline constexpr const char* progress_variable = "GLLADDER_PROGRESS"; // of its environment
 Command budgetCommand(const Budget& budget, const FrameRequest& request, const std::string& context);
 struct BudgetAnswer {
     BudgetResult::Sets set;

@@ -111,6 +111,14 @@ void Process::signal(int number) const {
     if (id_ > 0) kill(id_, number);
 }
 
+std::string Process::lastErrorLine() const {
+    const std::string text = contents(err_);
+    const auto end = text.rfind('\n');
+    if (end == std::string::npos) return {};
+    const auto begin = end == 0 ? std::string::npos : text.rfind('\n', end - 1);
+    return begin == std::string::npos ? text.substr(0, end) : text.substr(begin + 1, end - begin - 1);
+}
+
 ProcessResult Process::ended(int status, long peak_memory_kib) {
     id_ = -1;
     ProcessResult result;

@@ -43,6 +43,8 @@ class Process {
     Process& operator=(const Process&) = delete;
 
     void signal(int number) const;
+    // The last whole line that it has written to its standard error so far; empty where there is none.
+    std::string lastErrorLine() const;
     // How it ended, once it has; until then nothing, at once.
     std::optional<ProcessResult> poll();
     // Waits for its end, and kills it where that takes longer.

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <new>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -109,6 +110,7 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
     void say(const std::string& what) {
+        if (asked_by_window_) std::fprintf(stderr, "%s\n", what.c_str());
         if (!on_terminal_) return;
         const auto now = std::chrono::steady_clock::now();
         if (now - start_ < std::chrono::seconds(2) || now - last_ < std::chrono::milliseconds(200)) return;
@@ -123,6 +125,7 @@ class Progress {
 
   private:
     bool on_terminal_ = isatty(fileno(stderr)) != 0;
+    bool asked_by_window_ = std::getenv(progress_variable) != nullptr;
     bool shown_ = false;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::chrono::steady_clock::time_point last_ = start_;

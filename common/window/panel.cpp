@@ -247,6 +247,7 @@ void Panel::budgetSection(const PanelState& state, PanelActions& actions) {
         ImGui::Text("searching, %.0f s", state.searching_s);
         ImGui::SameLine();
         actions.stop_search = ImGui::Button("Stop");
+        wrappedText(state.search_progress);
         return;
     }
     // A rung that meters no exposure refuses a budget of it.
@@ -273,7 +274,8 @@ void Panel::budgetSection(const PanelState& state, PanelActions& actions) {
         budget_.limit = limit;
     tooltip("how far the frame may be from that of the most accurate settings");
     if (ImGui::Button("Find the cheapest settings")) actions.search = budget_;
-    tooltip("Takes some seconds, while the picture goes on; what is found is set, and undo takes it back.");
+    tooltip("Takes some seconds, while the picture goes on.");
+    if (state.has_found && ImGui::Button("Take what was found")) actions.take_found = true;
     if (!state.search_answer.empty()) wrappedText(state.search_answer);
 }
 

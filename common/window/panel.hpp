@@ -23,7 +23,9 @@ struct PanelState {
     std::vector<PassTime> pass_times; // empty until asked for
     std::vector<Reading> readings;    // of the frame shown, where the rung has some
     double searching_s = 0;           // how long a search within a budget has been under way; 0: none is
+    std::string search_progress;      // what it is at
     std::string search_answer;        // what the last search found, or why it did not
+    bool has_found = false;           // settings that differ from the present ones
     std::string edited;               // "A" or "B", where two are compared
     bool can_undo = false;
     bool can_redo = false;
@@ -36,6 +38,7 @@ struct PanelState {
 struct PanelActions {
     std::optional<Budget> search;
     bool stop_search = false;
+    bool take_found = false;
     bool undo = false;
     bool redo = false;
     bool copy_command = false;

@@ -115,6 +115,7 @@ class RungWindow {
     bool observed_ = false;         // by the inspector
     std::optional<Process> search_; // for the cheapest settings within a budget
     double search_start_s_ = 0;
+    BudgetResult::Sets found_;
     Clock::time_point start_ = Clock::now();
     double last_rendered_s_ = 0;
     std::string message_;

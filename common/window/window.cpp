@@ -158,6 +158,10 @@ void RungWindow::present(glm::ivec2 window) {
         readings_are_current_ = true;
     }
     state_.searching_s = search_ ? now() - search_start_s_ : 0;
+    if (search_) state_.search_progress = search_->lastErrorLine();
+    state_.has_found = std::any_of(found_.begin(), found_.end(), [&](const auto& one) {
+        return settings_.at(one.first).text() != one.second;
+    });
     state_.edited = !isComparing() ? "" : side == Stage::a ? "A" : "B";
     const bool is_held = glfwGetMouseButton(context_.window(), GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
     const History::State stage = stage_.state();
@@ -251,6 +255,9 @@ void RungWindow::attend(const PanelActions& asked) {
     if (asked.text_size) setTextSize(double(*asked.text_size));
     if (asked.stop_search) search_.reset();
     if (asked.search) startSearch(*asked.search);
+    if (asked.take_found)
+        for (const auto& [name, value] : found_)
+            settings_.set(name, value);
     if (asked.show_times) state_.shows_times = *asked.show_times;
     if (asked.wait_for_display) {
         state_.waits_for_display = *asked.wait_for_display;
@@ -258,15 +265,14 @@ void RungWindow::attend(const PanelActions& asked) {
     }
 }
 
-// Searches within a budget in a process of its own, and takes over what it finds.
+// Searches within a budget in a process of its own.
 void RungWindow::attendSearch() {
     if (!search_) return;
     const std::optional<ProcessResult> result = search_->poll();
     if (!result) return;
     search_.reset();
     const BudgetAnswer answer = budgetAnswer(*result);
-    for (const auto& [name, value] : answer.set)
-        settings_.set(name, value);
+    found_ = answer.set;
     state_.search_answer = answer.text;
     print(answer.text);
 }
@@ -276,6 +282,8 @@ void RungWindow::startSearch(const Budget& budget) {
         search_.emplace(budgetCommand(budget, shownFrame(), headlessContext()));
         search_start_s_ = now();
         state_.search_answer.clear();
+        state_.search_progress.clear();
+        found_.clear();
     } catch (const std::runtime_error& error) {
         state_.search_answer = error.what(); // as for a frame that cannot be saved
     }
