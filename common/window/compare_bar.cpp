@@ -36,6 +36,16 @@ void numbers(const Stage& stage, const Comparison& comparison, bool shows_times)
         "squared difference (0 to 1), and how many pixels differ at all. Then what drawing each took.");
 }
 
+void exchangeButtons(Stage& stage) {
+    ImGui::SameLine();
+    if (ImGui::Button("Swap")) stage.swap();
+    tooltip("X: A takes B's settings, and B takes A's");
+    ImGui::SameLine();
+    const bool edits_a = stage.edited() == Stage::a;
+    if (ImGui::Button(edits_a ? "Copy A to B" : "Copy B to A"))
+        stage.copy(stage.edited(), edits_a ? Stage::b : Stage::a);
+}
+
 // At most three, so that a label stays one.
 std::string label(const Stage& stage, int side) {
     const std::vector<std::string> differences = stage.differences(side);
@@ -78,13 +88,7 @@ void drawCompareBar(const Rectangle& place, float pixels_per_unit, Stage& stage,
         if (chosenButton(side == Stage::a ? "A##edit" : "B##edit", stage.edited() == side)) stage.edit(side);
         tooltip("B: which of the two the panel sets, and P and Ctrl+C mean");
     }
-    ImGui::SameLine();
-    if (ImGui::Button("Swap")) stage.swap();
-    tooltip("X: A takes B's settings, and B takes A's");
-    ImGui::SameLine();
-    const bool edits_a = stage.edited() == Stage::a;
-    if (ImGui::Button(edits_a ? "Copy A to B" : "Copy B to A"))
-        stage.copy(stage.edited(), edits_a ? Stage::b : Stage::a);
+    if (ImGui::GetWindowWidth() > 42 * em) exchangeButtons(stage); // where it is narrow, X will do
     ImGui::SameLine();
     for (const auto mode : {Comparison::Mode::divider, Comparison::Mode::blink, Comparison::Mode::difference,
                             Comparison::Mode::flip}) {

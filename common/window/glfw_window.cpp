@@ -91,6 +91,17 @@ glm::ivec2 WindowContext::size() const {
     return size;
 }
 
+void WindowContext::resize(glm::ivec2 size_at_scale_1) {
+    glm::ivec2 size(glm::vec2(size_at_scale_1) * contentScale() / pixelsPerUnit());
+    if (GLFWmonitor* monitor = monitorOf(window_); monitor != nullptr) {
+        glm::ivec2 corner(0);
+        glm::ivec2 extent(0);
+        glfwGetMonitorWorkarea(monitor, &corner.x, &corner.y, &extent.x, &extent.y);
+        if (extent.x > 0 && extent.y > 0) size = glm::min(size, extent);
+    }
+    if (size != this->size()) glfwSetWindowSize(window_, size.x, size.y);
+}
+
 float WindowContext::pixelsPerUnit() const {
     const int width = size().x;
     return width < 1 ? 1.0F : static_cast<float>(sizePx().x) / static_cast<float>(width);

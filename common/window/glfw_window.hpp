@@ -28,7 +28,10 @@ class WindowContext final : public Context {
 
     GLFWwindow* window() const { return window_; }
     glm::ivec2 sizePx() const;
-    glm::ivec2 size() const;              // in the display's units, which the cursor's place is in, too
+    glm::ivec2 size() const; // in the display's units, which the cursor's place is in, too
+    // To a size at a content scale of 1, which is as much larger as the scale, and no larger than the
+    // display.
+    void resize(glm::ivec2 size_at_scale_1);
     float pixelsPerUnit() const;          // 2 on many HiDPI displays, always 1 on X11
     float contentScale() const;           // how large the display wants things drawn, 1 to 4, in pixels
     void showResizeCursor(bool is_shown); // that of an edge which can be dragged sideways

@@ -47,7 +47,7 @@ TimelineBar::Actions TimelineBar::draw(const Rectangle& place, float pixels_per_
     while (scrub_end_ < frame && scrub_end_ < max_frame)
         scrub_end_ = std::min(2 * scrub_end_, max_frame);
     const int last = timeline.loop() ? timeline.loop()->last : scrub_end_;
-    const float rest = width < 30 * em ? 0 : 21.5F * em; // what is to the right of the slider
+    const float rest = width < 38 * em ? 0 : 21.5F * em; // what is to the right of the slider
     ImGui::SetNextItemWidth(std::max(ImGui::GetContentRegionAvail().x - rest, 3 * em));
     if (ImGui::SliderInt("##frame", &frame, std::min(first, frame), std::max(last, frame), "frame %d"))
         timeline.seek(frame);

@@ -85,6 +85,8 @@ RungWindow::RungWindow(const FrameRequest& request, const WindowRequest& wished,
         setPictureSize(*wished.picture);
     else if (has_state && state.picture.x > 0)
         setPictureSize(state.picture);
+    else
+        context_.resize(usual_window); // as large as the display's scale makes all else
     state_.renderer = context_.info().renderer;
     showWarnings();
 }
