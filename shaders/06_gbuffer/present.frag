@@ -10,6 +10,7 @@ in vec2 uv;
 
 #if VIEW == VIEW_LIT || VIEW == VIEW_LIT_ERROR
 uniform sampler2D lit_map;
+uniform float exposure; // factor on scene light
 #endif
 #if VIEW == VIEW_LIT_ERROR
 uniform sampler2D reference_lit_map;
@@ -26,7 +27,9 @@ uniform vec3 camera_position; // world
 
 out vec4 display_color; // encoded, [0, 1]
 
-vec3 displayed(vec3 lit_color) { return encode(toneMap(lit_color)); }
+#if VIEW == VIEW_LIT || VIEW == VIEW_LIT_ERROR
+vec3 displayed(vec3 lit_color) { return encode(toneMap(lit_color * exposure)); }
+#endif
 
 vec3 shown() {
 #if VIEW == VIEW_LIT

@@ -10,7 +10,8 @@ in vec2 uv;
 
 uniform vec3 to_sun; // world, unit length
 uniform sampler2D sun_map;
-uniform float aspect; // width / height of the screen
+uniform float aspect;   // width / height of the screen
+uniform float exposure; // factor on scene light
 
 out vec4 display_color; // encoded, [0, 1]
 
@@ -43,7 +44,7 @@ void main() {
                                    : cascadeColor(cascadeAt(position.xyz)) * (0.4 + 0.6 * textureLod(sun_map, uv, 0.0).r);
 #else
     vec3 light = position.w == 0.0 ? skyColor(uv.y) : litColor(position);
-    vec3 color = encode(toneMap(light));
+    vec3 color = encode(toneMap(light * exposure));
 #endif
     display_color = vec4(color, 1.0);
 }

@@ -32,7 +32,10 @@ AutoExposureOptions::AutoExposureOptions(Settings& settings)
       adapt(settings.toggle("adapt", true, "whether exposure follows the light over time, or at once")),
       adapt_up_s(settings.number("adapt_up_s", 0.4, 0, 10, "time constant towards brighter scenes, s")),
       adapt_down_s(settings.number("adapt_down_s", 1.2, 0, 10, "time constant towards darker scenes, s")),
-      guard(settings) {}
+      guard(settings) {
+    settings.needs({"low_percent", "high_percent"}, {{"reduction", {"histogram"}}});
+    settings.needs({"adapt_up_s", "adapt_down_s"}, {{"adapt", {"on"}}});
+}
 // end excerpt
 
 const Texture& LuminanceMeter::measure(Frame& frame, const Texture& hdr, float white_point) {

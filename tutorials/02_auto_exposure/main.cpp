@@ -30,6 +30,8 @@ struct AutoExposureRungOptions {
     OrbitSettings orbit{all};
 
     AutoExposureRungOptions() {
+        all.group(Setting::Group::look, {"overlay", "light_ev", "test_pattern"});
+        all.needs({"camera_yaw_deg", "camera_pitch_deg", "camera_zoom"}, {{"test_pattern", {"none"}}});
         all.at("white_point").needs = {{{"tone_map", {"reinhard_extended"}}, {"reduction", {"mipmap_r16"}}}};
         all.dial({"reduction", {"area", "histogram", "mipmap_r16f", "mipmap_r16"}});
         all.preset({"recommended",

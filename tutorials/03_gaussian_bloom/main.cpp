@@ -49,6 +49,19 @@ struct GaussianBloomOptions {
     // end excerpt
 
     GaussianBloomOptions() {
+        all.needs({"bright_pass", "threshold", "threshold_multiple", "bright_format", "blur", "iterations",
+                   "sigma", "offsets", "vertical_step", "swizzle", "strength", "guard"},
+                  {{"bloom", {"on"}}});
+        all.needs({"threshold"}, {{"bright_pass", {"fixed"}}});
+        all.needs({"threshold_multiple"}, {{"bright_pass", {"white_point"}}});
+        all.needs(
+            {"sigma", "vertical_step"},
+            {{"blur", {"ping_pong_9tap", "ping_pong_5fetch", "half_resolution_5tap", "wide_gaussian"}}});
+        all.needs({"iterations"}, {{"blur", {"ping_pong_9tap", "ping_pong_5fetch", "half_resolution_5tap"}}});
+        all.needs({"offsets"}, {{"blur", {"half_resolution_5tap"}}});
+        all.needs({"iterations", "offsets"}, {{"sigma", {"0"}}});
+        all.at("white_point").needs = {
+            {{"tone_map", {"reinhard_extended"}}, {"bright_pass", {"white_point"}}}};
         all.dial({"bloom", {"on", "off"}});
         all.dial({"blur", {"wide_gaussian", "ping_pong_9tap", "ping_pong_5fetch", "half_resolution_5tap"}});
         all.dial({"bright_format", {"rgba16f", "r11f_g11f_b10f"}});

@@ -39,6 +39,13 @@ struct PyramidOptions {
     // end excerpt
 
     PyramidOptions() {
+        all.group(Setting::Group::look, {"view"});
+        all.needs({"threshold", "soft_knee", "strength", "radius", "levels", "blur", "accumulate", "format",
+                   "view", "karis", "down_filter", "up_filter", "finest", "normalise", "guard"},
+                  {{"bloom", {"on"}}});
+        all.needs({"radius"}, {{"blur", {"gaussian"}}});
+        all.needs({"strength", "accumulate", "up_filter", "finest", "normalise"},
+                  {{"view", {"picture", "sums"}}});
         all.dial({"bloom", {"on", "off"}});
         all.dial({"levels"});
         PyramidFilters::dials(all);

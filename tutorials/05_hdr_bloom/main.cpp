@@ -42,6 +42,10 @@ struct HdrBloomOptions {
     // end excerpt
 
     HdrBloomOptions() {
+        all.group(Setting::Group::look, {"instances", "boost", "glow_every", "glow_first"});
+        all.needs({"levels", "threshold", "knee", "intensity", "karis", "down_filter", "up_filter", "finest",
+                   "normalise", "guard"},
+                  {{"bloom", {"on"}}});
         all.dial({"bloom", {"on", "off"}});
         all.dial({"levels"});
         PyramidFilters::dials(all);

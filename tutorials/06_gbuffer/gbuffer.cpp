@@ -32,6 +32,8 @@ GBufferOptions::GBufferOptions(Settings& settings)
                           "found from positions side by side")) {
     settings.shared("06_gbuffer",
                     {"packing", "normals", "precise", "positions", "gloss", "albedo", "geometric"});
+    settings.needs({"normals", "gloss", "albedo"}, {{"packing", {"separate"}}});
+    settings.needs({"precise"}, {{"normals", {"oct16", "oct12", "oct10", "oct8"}}});
 }
 // end excerpt
 

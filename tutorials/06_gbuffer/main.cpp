@@ -25,6 +25,19 @@ struct Options {
     OrbitSettings orbit{all};
 
     Options() {
+        all.group(Setting::Group::look, {"floor_shininess", "view", "amplify"});
+        all.needs({"packing", "texture_filter", "flip_v"},
+                  {{"view", {"lit", "albedo", "specular", "normal", "lit_error", "normal_error"}}});
+        all.needs({"normals"}, {{"view", {"lit", "normal", "lit_error", "normal_error"}}});
+        all.needs({"gloss"}, {{"view", {"lit", "gloss", "specular", "lit_error"}}});
+        all.needs({"specular_aa", "floor_shininess"}, {{"view", {"lit", "gloss", "lit_error"}}});
+        all.needs({"specular_aa", "floor_shininess"},
+                  {{"gloss", {"float", "8", "6", "4"}}, {"packing", {"rgba16"}}});
+        all.needs({"albedo"}, {{"view", {"lit", "albedo", "specular", "lit_error"}}});
+        all.needs({"geometric"}, {{"view", {"geometric"}}});
+        all.needs({"amplify"}, {{"view", {"lit_error", "normal_error", "position_error"}}});
+        all.needs({"exposure_ev", "tone_map"}, {{"view", {"lit", "lit_error"}}});
+        all.needs({"encode"}, {{"view", {"lit", "lit_error", "albedo"}}});
         all.preset({"recommended",
                     "twelve bytes a pixel; two lit pixels in a thousand show a difference",
                     {{"packing", "rgba16"}, {"positions", "depth24"}}});

@@ -107,15 +107,19 @@ Mesh makeFloor(float half_width) {
 
 } // namespace
 
-SceneOptions::SceneOptions(Settings& settings)
+SceneOptions::SceneOptions(Settings& settings, Highlights highlights)
     : texture_filter(settings.choice(
           "texture_filter", "bilinear", {"bilinear", "mipmapped", "anisotropic"},
           "how materials are sampled; anisotropic where the driver offers it, else as mipmapped")),
-      specular_aa(settings.toggle("specular_aa", false,
-                                  "widen highlights by how much normals vary from pixel to pixel")),
+      specular_aa(
+          highlights == Highlights::some
+              ? std::optional(settings.toggle(
+                    "specular_aa", false, "widen highlights by how much normals vary from pixel to pixel"))
+              : std::nullopt),
       flip_v(settings.toggle("flip_v", false,
                              "turn the model's texture coordinates over: for OBJ files whose v runs down")) {
-    settings.shared("06_gbuffer", {"texture_filter", "specular_aa", "flip_v"});
+    settings.shared("06_gbuffer", {"texture_filter", "flip_v"});
+    if (specular_aa) settings.shared("06_gbuffer", {"specular_aa"});
 }
 
 MaterialFilter SceneOptions::filter() const {

@@ -13,18 +13,20 @@
 
 namespace gll::gbuffer {
 
+enum class Highlights { some, none };
+
 // How the scene's materials are sampled.
 struct SceneOptions {
-    // Declares the settings. Every rung but 06 shares them.
-    explicit SceneOptions(Settings& settings);
+    // Declares the settings. Every rung but 06 shares them; one that draws no highlights has no specular_aa.
+    explicit SceneOptions(Settings& settings, Highlights highlights = Highlights::some);
 
     Choice texture_filter;
-    Toggle specular_aa;
+    std::optional<Toggle> specular_aa;
     Toggle flip_v;
 
     MaterialFilter filter() const;
     Defines defines() const {
-        return texture_filter.defines() + Defines{{"SPECULAR_AA", specular_aa ? "1" : "0"}};
+        return texture_filter.defines() + Defines{{"SPECULAR_AA", specular_aa && *specular_aa ? "1" : "0"}};
     }
 };
 

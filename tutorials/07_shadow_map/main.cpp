@@ -25,11 +25,17 @@ struct Options {
     Choice view =
         all.choice("view", "lit", {"lit", "sun", "shadow", "cascades"},
                    "the picture; how much of the sun is seen; the map; which cascade is read, by color");
-    gbuffer::SceneOptions materials{all};
+    gbuffer::SceneOptions materials{all, gbuffer::Highlights::none};
     ToneMapOptions display{all, "aces_narkowicz", "srgb"};
     OrbitSettings orbit{all};
 
     Options() {
+        all.group(Setting::Group::look, {"scene", "sun_elevation_deg", "sun_azimuth_deg", "view"});
+        all.needs({"exposure_ev", "tone_map", "encode"}, {{"view", {"lit"}}});
+        all.needs({"texture_filter", "flip_v"}, {{"scene", {"cat"}}});
+        all.needs({"texture_filter", "flip_v"}, {{"view", {"lit", "sun", "cascades"}}});
+        all.needs({"camera_yaw_deg", "camera_pitch_deg", "camera_zoom"},
+                  {{"view", {"lit", "sun", "cascades"}}, {"shadow_fit", {"fitted", "stable"}}});
         all.preset({"recommended",
                     "no self-shadowing and no gap at any slope, without a number chosen for the scene",
                     {{"shadow_bias", "plane"}, {"shadow_pcf", "3"}, {"shadow_fit", "stable"}}});

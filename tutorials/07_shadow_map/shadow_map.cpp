@@ -32,6 +32,8 @@ ShadowOptions::ShadowOptions(Settings& settings)
                           "half of the angle that the sun takes up, for pcss; the real one has 0.27")) {
     settings.shared("07_shadow_map", {"shadow_size", "shadow_filter", "shadow_pcf", "shadow_bias",
                                       "shadow_fit", "cascades", "sun_radius_deg"});
+    settings.needs({"cascades"}, {{"shadow_fit", {"fitted", "stable"}}});
+    settings.needs({"sun_radius_deg"}, {{"shadow_filter", {"pcss"}}});
 }
 // end excerpt
 

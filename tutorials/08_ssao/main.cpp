@@ -17,11 +17,14 @@ struct Options {
                               "a cat on brick, a room that puts occlusion to the test, two planes");
     Choice view = all.choice("view", "lit", {"lit", "visibility"},
                              "what the sky lights, or the share of its light that arrives");
-    gbuffer::SceneOptions materials{all};
+    gbuffer::SceneOptions materials{all, gbuffer::Highlights::none};
     ToneMapOptions display{all, "aces_narkowicz", "srgb"};
     OrbitSettings orbit{all};
 
     Options() {
+        all.group(Setting::Group::look, {"scene", "view"});
+        all.needs({"exposure_ev", "tone_map", "ssao_multi_bounce"}, {{"view", {"lit"}}});
+        all.needs({"texture_filter", "flip_v"}, {{"scene", {"cat"}}});
         all.preset({"recommended",
                     "close to rays, by twelve taps and a blur",
                     {{"ssao", "bitmask"},

@@ -88,6 +88,14 @@ SsaoOptions::SsaoOptions(Settings& settings)
                     {"ssao", "ssao_normals", "ssao_noise", "ssao_blur", "ssao_resolution", "ssao_samples",
                      "ssao_slices", "ssao_spacing", "ssao_radius", "ssao_bias", "ssao_strength", "ssao_power",
                      "ssao_falloff", "ssao_thickness", "ssao_sectors", "ssao_rounding", "ssao_multi_bounce"});
+    const std::vector<std::string> methods = {"cone", "hemisphere", "sao", "hbao", "gtao", "bitmask"};
+    settings.needs({"ssao_normals", "ssao_noise", "ssao_blur", "ssao_resolution", "ssao_samples",
+                    "ssao_radius", "ssao_bias", "ssao_power", "ssao_multi_bounce"},
+                   {{"ssao", methods}});
+    settings.needs({"ssao_slices", "ssao_spacing"}, {{"ssao", {"hbao", "gtao", "bitmask"}}});
+    settings.needs({"ssao_strength"}, {{"ssao", {"cone", "hemisphere", "sao", "hbao"}}});
+    settings.needs({"ssao_falloff"}, {{"ssao", {"gtao"}}});
+    settings.needs({"ssao_thickness", "ssao_sectors", "ssao_rounding"}, {{"ssao", {"bitmask"}}});
 }
 
 // excerpt: occlusion

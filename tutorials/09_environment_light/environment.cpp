@@ -42,6 +42,10 @@ EnvironmentOptions::EnvironmentOptions(Settings& settings)
                     {"environment_diffuse", "environment_specular", "prefilter_samples", "prefilter_filtered",
                      "environment_sun", "environment_layout", "environment_brdf", "brdf_table_size",
                      "environment_energy"});
+    settings.needs({"prefilter_samples", "prefilter_filtered", "environment_sun", "environment_layout"},
+                   {{"environment_specular", {"prefiltered"}}});
+    settings.needs({"brdf_table_size"}, {{"environment_brdf", {"table"}}});
+    settings.needs({"environment_energy"}, {{"environment_brdf", {"table", "karis", "lazarov"}}});
 }
 // end excerpt
 

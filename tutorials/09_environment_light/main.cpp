@@ -23,6 +23,10 @@ struct Options {
     OrbitSettings orbit{all};
 
     Options() {
+        all.group(Setting::Group::look, {"sky", "view"});
+        all.needs({"environment_diffuse"}, {{"view", {"lit", "irradiance"}}});
+        all.needs({"environment_specular"}, {{"view", {"lit", "radiance"}}});
+        all.needs({"environment_brdf"}, {{"view", {"lit"}}});
         all.preset({"recommended",
                     "within a percent of the integrals but for what every split sum leaves out",
                     {{"environment_diffuse", "sh9_sun"},

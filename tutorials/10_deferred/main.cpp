@@ -39,6 +39,26 @@ struct DeferredOptions {
     // end excerpt
 
     DeferredOptions() {
+        all.group(Setting::Group::look, {"sun", "points", "environment", "view", "filmstrip"});
+        all.needs({"sun"}, {{"view", {"lit", "sun"}}});
+        all.needs({"points", "occluded_direct", "exposure_ev", "tone_map"}, {{"view", {"lit"}}});
+        all.needs({"environment"}, {{"view", {"lit", "ambient", "reflected"}}});
+        all.needs({"encode"}, {{"view", {"lit", "albedo", "ambient", "reflected"}}});
+        all.needs({"shadow_size", "shadow_filter", "shadow_pcf", "shadow_bias", "shadow_fit"},
+                  {{"sun", {"on"}}, {"view", {"shadow"}}});
+        all.needs({"cascades", "sun_radius_deg"}, {{"sun", {"on"}}});
+        all.needs({"ssao"}, {{"view", {"lit", "ssao", "ambient", "reflected"}}, {"filmstrip", {"on"}}});
+        all.needs({"ssao_multi_bounce"}, {{"view", {"lit", "ambient"}}});
+        all.needs({"occluded_direct"}, {{"sun", {"on"}}, {"points", {"on"}}});
+        all.needs({"occluded_direct"}, {{"ssao", {"cone", "hemisphere", "sao", "hbao", "gtao", "bitmask"}}});
+        all.needs({"environment_diffuse", "environment_specular", "environment_brdf", "ssao_multi_bounce"},
+                  {{"environment", {"on"}}});
+        all.needs({"environment_diffuse"}, {{"view", {"lit", "ambient"}}});
+        all.needs({"environment_specular", "environment_brdf"}, {{"view", {"lit", "reflected"}}});
+        all.needs({"gloss", "specular_aa"}, {{"view", {"lit", "reflected"}}});
+        all.needs({"specular_aa"}, {{"gloss", {"float", "8", "6", "4"}}, {"packing", {"rgba16"}}});
+        all.needs({"geometric"}, {{"shadow_bias", {"texel", "normal_offset", "front_faces", "plane"}},
+                                  {"ssao_normals", {"geometric"}}});
         all.preset({"recommended",
                     "what each rung before found best, at half the cost where nobody sees it",
                     {{"packing", "rgba16"},
