@@ -242,6 +242,12 @@ void Panel::settingsSection(Settings& settings) {
     }
 }
 
+void Panel::chartSection(Settings& settings) {
+    if (!chart_) chart_.emplace(Resources(), rung_, settings);
+    for (const std::string& set : chart_->draw(settings))
+        settings.set(set);
+}
+
 void Panel::budgetSection(const PanelState& state, PanelActions& actions) {
     if (state.searching_s > 0) {
         ImGui::Text("searching, %.0f s", state.searching_s);
@@ -333,6 +339,7 @@ PanelActions Panel::draw(const Rectangle& place, float pixels_per_unit, Settings
     ImGui::Separator();
     ImGui::BeginChild("##sections", {0, 0}, false, ImGuiWindowFlags_NavFlattened);
     settingsSection(settings);
+    if (ImGui::CollapsingHeader("Chart")) chartSection(settings);
     if (!settings.dials().empty() && ImGui::CollapsingHeader("Budget")) budgetSection(state, actions);
     pass_times_open_ = ImGui::CollapsingHeader("Window and times");
     if (pass_times_open_) timesSection(state, actions);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "budget/budget.hpp"
+#include "window/chart_view.hpp"
 #include "window/layout.hpp"
 #include "window/pass_timer.hpp"
 
@@ -75,13 +76,15 @@ class Panel {
     void settingsSection(Settings& settings);
     void table(const char* name, const std::vector<Setting*>& shown, const Settings& settings);
     void row(Setting& setting, double preset_value, const std::string& why_idle);
+    void chartSection(Settings& settings);
     void budgetSection(const PanelState& state, PanelActions& actions);
     void timesSection(const PanelState& state, PanelActions& actions);
     double presetValue(const Settings& settings, const Setting& setting) const;
 
     std::string rung_;
     std::vector<Preset> presets_;
-    std::size_t preset_ = 0; // the one that settings are marked to differ from
+    std::size_t preset_ = 0;         // the one that settings are marked to differ from
+    std::optional<ChartView> chart_; // once it was looked at
     Budget budget_{Budget::Kind::flip, 0.01};
     bool pass_times_open_ = false;
     bool focus_ = false;

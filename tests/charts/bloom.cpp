@@ -98,11 +98,20 @@ void drawBloomCharts(const fs::path& programs, const fs::path& costs_csv, const 
                               ifCompared(100 * e.inner_energy_error), ifCompared(100 * e.energy_error),
                               shortNumber(100 * e.squareness), shortNumber(e.flip[0]), shortNumber(e.flip[1]),
                               shortNumber(e.flip[2]), ifCompared(e.mixture_flip), method.mark});
+        Set own = method.set; // without what all have, for their equal terms
+        for (const char* name : {"threshold", "karis", "normalise"})
+            own.erase(name);
         // What is drawn is what the table says, to the same digits.
         const auto point = [&](const std::string& dial, double error) {
-            return Point{
-                method.name,        dial, cu, std::stod(shortNumber(error)), method.mark, method.competes(),
-                method.finestAdds()};
+            return Point{method.name,
+                         dial,
+                         cu,
+                         std::stod(shortNumber(error)),
+                         method.mark,
+                         method.competes(),
+                         method.finestAdds(),
+                         own,
+                         method.rung};
         };
         if (method.competes() || !method.mark.empty()) {
             shift.push_back(point("", 100 * e.shift_variance));

@@ -1,6 +1,7 @@
 // Charts as SVG by gnuplot.
 #include "charts/chart.hpp"
 
+#include "charts/chart_json.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -280,15 +281,18 @@ std::vector<bool> worstFront(const std::vector<Point>& points) {
     return front;
 }
 
+std::vector<bool> frontOf(const Axes& axes, const std::vector<Point>& points) {
+    if (!axes.x_is_cost) return std::vector<bool>(points.size());
+    return axes.dial_is_given ? worstFront(points) : paretoFront(points);
+}
+
 namespace {
 
 // A chart as a gnuplot script. Names that find no room beside their points go into a key, which makes the
 // chart narrower; missing says whether there were such.
 std::string chartScript(const Axes& axes, const std::vector<Point>& points, const Theme& theme, bool with_key,
                         bool& missing) {
-    const std::vector<bool> front = !axes.x_is_cost      ? std::vector<bool>(points.size())
-                                    : axes.dial_is_given ? worstFront(points)
-                                                         : paretoFront(points);
+    const std::vector<bool> front = frontOf(axes, points);
     Scale scale = scaleFor(axes, points);
     scale.right_px = with_key ? plot_right_beside_key : plot_right;
     const auto y = [&](double error) { return axes.log_y ? std::max(error, axes.floor) : error; };
@@ -464,6 +468,8 @@ void drawChart(const std::filesystem::path& file, const Axes& axes, const std::v
         std::filesystem::copy_file(folder / "chart.svg", target,
                                    std::filesystem::copy_options::overwrite_existing);
     }
+    std::filesystem::path json = file;
+    writeChartJson(json.replace_extension(".json"), axes, points);
 }
 
 } // namespace gll::charts

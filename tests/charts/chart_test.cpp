@@ -6,6 +6,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 namespace gll::charts {
@@ -184,6 +185,50 @@ TEST(Drawing, refusesALogarithmicAxisWithoutABottomOrOfWhatCostsNothingAndAChart
     EXPECT_THROW(drawn(folder, {"a title", "", "x", "y"}, {}), std::invalid_argument);
     EXPECT_THROW(drawn(folder, {.title = "a title", .x = "x", .y = "y", .log_x = true}, {{"free", "", 0, 1}}),
                  std::invalid_argument);
+}
+
+TEST(ChartJson, hasThePointsWithTheirSettingsAndTheFront) {
+    const test::TemporaryFolder folder;
+    std::vector<Point> list = points;
+    list[1].settings = {{"levels", "3"}, {"filter", "tent"}};
+    list[4].settings.emplace(); // of the defaults
+    list[4].rung = "02_other";
+    list[4].error = 1.00049;
+    list[5].competes = false;
+    drawn(folder,
+          {.title = "a title",
+           .subtitle = "640x360",
+           .x = "cost",
+           .y = "error",
+           .log_y = true,
+           .floor = 0.01,
+           .rung = "01_rung"},
+          list);
+    const std::string text = test::contents(folder / "chart.json");
+    const auto json = nlohmann::json::parse(text);
+    EXPECT_EQ(json.at("title"), "a title");
+    EXPECT_EQ(json.at("subtitle"), "640x360");
+    EXPECT_EQ(json.at("x"), (nlohmann::json{{"label", "cost"}, {"log", false}}));
+    EXPECT_EQ(json.at("y"), (nlohmann::json{{"label", "error"}, {"log", true}, {"floor", 0.01}}));
+    const auto& all = json.at("points");
+    ASSERT_EQ(all.size(), list.size());
+    EXPECT_EQ(all[1], (nlohmann::json{{"method", "good"},
+                                      {"dial", "levels 3"},
+                                      {"x", 2.0},
+                                      {"y", 4.0},
+                                      {"front", true},
+                                      {"competes", true},
+                                      {"mark", ""},
+                                      {"rung", "01_rung"},
+                                      {"settings", {"filter=tent", "levels=3"}}}));
+    EXPECT_EQ(all[3].at("front"), false);
+    EXPECT_FALSE(all[0].contains("settings"));
+    EXPECT_EQ(all[4].at("settings"), nlohmann::json::array());
+    EXPECT_EQ(all[4].at("rung"), "02_other");
+    EXPECT_EQ(all[4].at("y"), 1.0) << "three digits";
+    EXPECT_EQ(all[4].at("mark"), "the original of 9");
+    EXPECT_EQ(all[5].at("competes"), false);
+    EXPECT_EQ(count(text, "\n    {"), int(list.size())) << "a line each";
 }
 
 } // namespace

@@ -179,7 +179,9 @@ void drawDeferredCharts(const fs::path& programs, const fs::path& costs_csv, con
         const std::string shown = all[i].kind == "better"           ? "better " + all[i].part
                                   : all[i].kind == "the original's" ? "original " + all[i].part
                                                                     : name;
-        points.push_back({shown, "", costs.of(name, "cost_cu"), errors[i], mark});
+        points.push_back({shown, "", costs.of(name, "cost_cu"), errors[i], mark, true, false, all[i].set});
+        for (const auto& [taste, value] : look)
+            points.back().settings->erase(taste);
     }
     const auto number = [&](const std::string& name, bool cost) {
         const auto found = at.find(name);
@@ -203,7 +205,8 @@ void drawDeferredCharts(const fs::path& programs, const fs::path& costs_csv, con
               {.title = "The whole frame: what is each part worth?",
                .subtitle = "frames 60, 150 and 300, 320x240, tone_map=pbr_neutral encode=srgb",
                .x = "cost of the frame, copies (cu) at 640x480",
-               .y = "mean FLIP to the frame of best parts"},
+               .y = "mean FLIP to the frame of best parts",
+               .rung = rung_name},
               points);
 }
 

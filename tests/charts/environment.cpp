@@ -177,7 +177,8 @@ void drawEnvironmentCharts(const fs::path& programs, const fs::path& costs_csv, 
                                          i < glossy.size() ? glossy[i].mark : ""});
             if (ball > 0 && (i != 3)) // a mirror is exact; octahedral is as equirectangular
                 by_roughness.push_back({name, "", roughness, error.rmsPercent(),
-                                        i < glossy.size() && ball == 3 ? glossy[i].mark : ""});
+                                        i < glossy.size() && ball == 3 ? glossy[i].mark : "", true, false,
+                                        i < glossy.size() ? std::optional(glossy[i].set) : std::nullopt});
         }
     writeCsv(folder / "environment_glossy.csv", glossy_table);
     drawChart(folder / "environment_glossy.svg",
@@ -187,7 +188,8 @@ void drawEnvironmentCharts(const fs::path& programs, const fs::path& costs_csv, 
                .y = "RMS error, % of the mean truth",
                .log_y = true,
                .floor = 0.3,
-               .x_is_cost = false},
+               .x_is_cost = false,
+               .rung = rung.filename()},
               by_roughness);
 
     Table costs_table{{"method", "bytes", "cost cu", "RMS %", "bias %", "note"}, {}};
@@ -213,7 +215,8 @@ void drawEnvironmentCharts(const fs::path& programs, const fs::path& costs_csv, 
         matt_table.rows.push_back({matt[i].name, shortNumber(matt_errors[i].rmsPercent()),
                                    shortNumber(matt_errors[i].biasPercent()), decimals(cost, 2),
                                    matt[i].mark});
-        matt_points.push_back({matt[i].name, "", cost, matt_errors[i].rmsPercent(), matt[i].mark});
+        matt_points.push_back(
+            {matt[i].name, "", cost, matt_errors[i].rmsPercent(), matt[i].mark, true, false, matt[i].set});
     }
     writeCsv(folder / "environment_matt.csv", matt_table);
     drawChart(folder / "environment_matt.svg",
@@ -222,7 +225,8 @@ void drawEnvironmentCharts(const fs::path& programs, const fs::path& costs_csv, 
                .x = "cost of the balls' pass, copies (cu)",
                .y = "RMS error of irradiance, % of the mean",
                .log_y = true,
-               .floor = 0.1},
+               .floor = 0.1,
+               .rung = rung.filename()},
               matt_points);
 
     // what is stored, by samples
@@ -243,7 +247,9 @@ void drawEnvironmentCharts(const fs::path& programs, const fs::path& costs_csv, 
     for (std::size_t i = 0; i < 2 * count; ++i)
         sample_points.push_back({i < count ? "filtered by mip levels" : "samples of the finest level",
                                  sample_counts[i % count], std::stod(sample_counts[i % count]),
-                                 stored_errors[i].rmsPercent(), i == 1 ? "recommended" : ""});
+                                 stored_errors[i].rmsPercent(), i == 1 ? "recommended" : "", true, false,
+                                 joined(with_sun, {{"prefilter_samples", sample_counts[i % count]},
+                                                   {"prefilter_filtered", i < count ? "on" : "off"}})});
     writeCsv(folder / "environment_samples.csv", sample_table);
     drawChart(folder / "environment_samples.svg",
               {.title = "Prefiltering: how many samples a texel?",
@@ -252,7 +258,8 @@ void drawEnvironmentCharts(const fs::path& programs, const fs::path& costs_csv, 
                .y = "RMS error of what is stored, % of the mean",
                .log_y = true,
                .floor = 0.1,
-               .log_x = true},
+               .log_x = true,
+               .rung = rung.filename()},
               sample_points);
 
     // how much is reflected

@@ -418,23 +418,26 @@ void drawExposureCharts(const fs::path& programs, const fs::path& costs_csv, con
             const std::string mark = c == 0 ? list[r].mark : "";
             worst.push_back({list[r].name, contents[c].name, cu, e.worst_ev, mark});
             mean.push_back({list[r].name, contents[c].name, cu, mean_ev, mark});
+            worst.back().settings = mean.back().settings = list[r].set;
             if (list[r].mark == "recommended" && !(e.worst_ev <= promised_ev && cu <= promised_cu))
                 missed += contents[c].name + ": " + shortNumber(e.worst_ev) + " EV for " + decimals(cu, 2) +
                           " copies; ";
         }
     }
     writeCsv(folder / "exposure.csv", table);
-    const std::string x = "cost, copies (cu)";
-    const std::string subtitle =
-        "a thousand frame sizes from 1x1 to 4096x2160, four contents, adapt=off; cost at 1280x720";
-    drawChart(
-        folder / "exposure_worst.svg",
-        {"Metering: how far off can the average be?", subtitle, x, "largest error, EV", true, 1e-6, true},
-        worst);
-    drawChart(folder / "exposure_mean.svg",
-              {"Metering: how far off is the average, over all sizes?", subtitle, x, "mean error, EV", true,
-               1e-6, true},
-              mean);
+    Axes axes{.title = "Metering: how far off can the average be?",
+              .subtitle =
+                  "a thousand frame sizes from 1x1 to 4096x2160, four contents, adapt=off; cost at 1280x720",
+              .x = "cost, copies (cu)",
+              .y = "largest error, EV",
+              .log_y = true,
+              .floor = 1e-6,
+              .dial_is_given = true,
+              .rung = "02_auto_exposure"};
+    drawChart(folder / "exposure_worst.svg", axes, worst);
+    axes.title = "Metering: how far off is the average, over all sizes?";
+    axes.y = "mean error, EV";
+    drawChart(folder / "exposure_mean.svg", axes, mean);
     if (!missed.empty()) throw std::runtime_error("the recommended reduction misses its promise: " + missed);
 }
 

@@ -89,20 +89,24 @@ void drawFormatCharts(const fs::path& programs, const fs::path& costs_csv, const
                                   shortNumber(flip_error), format.mark});
             rmse.push_back({format.name, dial, double(format.bytes_per_pixel), code_error, mark});
             flip.push_back({format.name, dial, double(format.bytes_per_pixel), flip_error, mark});
+            rmse.back().settings = flip.back().settings = Set{{"format", format.name}};
         }
         first += formats.size();
     }
     writeCsv(folder / "formats.csv", table);
-    const std::string x = "bytes per pixel";
-    const std::string subtitle = "640x360, tone_map=reinhard, exposure_ev = -5, 0 and 5";
-    drawChart(folder / "formats.svg",
-              {"Formats: how far is the shown frame from the 32-bit one?", subtitle, x, "RMSE, codes of 255",
-               true, 0.01, true},
-              rmse);
-    drawChart(folder / "formats_flip.svg",
-              {"Formats: what would a person see, against the 32-bit frame?", subtitle, x, "mean FLIP", true,
-               1e-4, true},
-              flip);
+    Axes axes{.title = "Formats: how far is the shown frame from the 32-bit one?",
+              .subtitle = "640x360, tone_map=reinhard, exposure_ev = -5, 0 and 5",
+              .x = "bytes per pixel",
+              .y = "RMSE, codes of 255",
+              .log_y = true,
+              .floor = 0.01,
+              .dial_is_given = true,
+              .rung = "01_hdr"};
+    drawChart(folder / "formats.svg", axes, rmse);
+    axes.title = "Formats: what would a person see, against the 32-bit frame?";
+    axes.y = "mean FLIP";
+    axes.floor = 1e-4;
+    drawChart(folder / "formats_flip.svg", axes, flip);
 }
 
 } // namespace gll::charts

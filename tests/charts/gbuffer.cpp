@@ -162,6 +162,8 @@ void drawNormals(const fs::path& programs, const fs::path& folder) {
                                        : precise                           ? "octahedral, precise"
                                                                            : "octahedral";
             points.push_back({method, normals, double(bits), error.mean_deg});
+            points.back().settings = Set{{"normals", normals}};
+            if (precise) points.back().settings->emplace("precise", "on");
         }
     }
     std::stable_sort(points.begin(), points.end(), [](const Point& a, const Point& b) {
@@ -174,7 +176,8 @@ void drawNormals(const fs::path& programs, const fs::path& folder) {
                .x = "bits per normal",
                .y = "mean error, degrees",
                .log_y = true,
-               .floor = 1e-3},
+               .floor = 1e-3,
+               .rung = rung},
               points);
 }
 
@@ -234,6 +237,7 @@ void drawGbufferCharts(const fs::path& programs, const fs::path& costs_csv, cons
         table.rows.push_back(row);
         by_bytes.push_back({layout.name, "", double(bytesOf(layout.set)), worst.percent, layout.mark});
         by_cost.push_back({layout.name, "", cost, worst.rmse, layout.mark});
+        by_bytes.back().settings = by_cost.back().settings = layout.set;
     }
     writeCsv(folder / "gbuffer.csv", table);
     const std::string measured = "worst of four views of the yard at 320x240, against 32-bit floats";
@@ -243,7 +247,8 @@ void drawGbufferCharts(const fs::path& programs, const fs::path& costs_csv, cons
                .x = "bytes per pixel, depth included",
                .y = "lit pixels off by more than 1/255, %",
                .log_y = true,
-               .floor = 0.01},
+               .floor = 0.01,
+               .rung = rung},
               by_bytes);
     drawChart(folder / "gbuffer_cost.svg",
               {.title = "G-buffers: does packing cost more than it saves?",
@@ -251,7 +256,8 @@ void drawGbufferCharts(const fs::path& programs, const fs::path& costs_csv, cons
                .x = "cost of the frame in copies (cu)",
                .y = "RMSE of lit pixels, codes of 255",
                .log_y = true,
-               .floor = 0.01},
+               .floor = 0.01,
+               .rung = rung},
               by_cost);
     drawNormals(programs, folder);
 }

@@ -166,6 +166,8 @@ void drawShadowCharts(const fs::path& programs, const fs::path& costs_csv, const
                             band == 3 ? biases[i].mark : ""});
             gap.push_back(
                 {biases[i].name, "", middle, by_slope[i][band].gapTexels(), band == 3 ? biases[i].mark : ""});
+            acne.back().settings = gap.back().settings =
+                Set{{"shadow_bias", biases[i].name}, {"shadow_pcf", "3"}};
             slopes.rows.push_back({biases[i].name, name, shortNumber(by_slope[i][band].acnePercent()),
                                    shortNumber(by_slope[i][band].gapTexels())});
         }
@@ -178,7 +180,8 @@ void drawShadowCharts(const fs::path& programs, const fs::path& costs_csv, const
               .y = "acne, % of lit pixels",
               .log_y = true,
               .floor = 0.01,
-              .dial_is_given = true};
+              .dial_is_given = true,
+              .rung = "07_shadow_map"};
     drawChart(folder / "shadow_acne.svg", axes, acne);
     axes.title = "Biases: how far does light leak in where things touch?";
     axes.y = "gap, texels";
@@ -195,6 +198,7 @@ void drawShadowCharts(const fs::path& programs, const fs::path& costs_csv, const
              methods[i].mark});
         points.push_back(
             {methods[i].name, methods[i].dial, cost, filters[i].rmseToFilter(), methods[i].mark});
+        points.back().settings = methods[i].set;
     }
     writeCsv(folder / "shadow_filters.csv", filter_table);
     drawChart(
@@ -203,7 +207,8 @@ void drawShadowCharts(const fs::path& programs, const fs::path& costs_csv, const
          .subtitle = "scene=plot shadow_size=512 shadow_bias=plane, the sun 5 to 80 degrees up, 240x180",
          .x = "cost of map and lookup, copies (cu) at 640x480",
          .y = "RMSE of the sun's visibility",
-         .dial_is_given = true},
+         .dial_is_given = true,
+         .rung = "07_shadow_map"},
         points);
 }
 

@@ -277,6 +277,7 @@ void drawSsaoCharts(const fs::path& programs, const fs::path& costs_csv, const f
             const std::string mark = markOf(method, samples);
             cat.push_back({method.name, "taps " + samples, cost, frames.errors(i, "cat").all.rmse(), mark});
             room.push_back({method.name, "taps " + samples, cost, frames.errors(i, "room").all.rmse(), mark});
+            cat.back().settings = room.back().settings = setFrom(measured.rows[i][2]);
             tell(method.name, samples, i, decimals(cost, 2), mark);
             ++i;
         }
@@ -309,7 +310,8 @@ void drawSsaoCharts(const fs::path& programs, const fs::path& costs_csv, const f
               .x = "cost of occlusion, blur and look-up, copies (cu) at 320x240",
               .y = "RMSE of the visibility",
               .log_y = true,
-              .floor = 0.02};
+              .floor = 0.02,
+              .rung = rung_name};
     drawChart(folder / "ssao_cat.svg", axes, cat);
     axes.subtitle = "scene=room, frame 60, 320x240, radius 0.6";
     axes.floor = 0.05;

@@ -30,6 +30,10 @@ struct Curve {
     glm::dvec3 operator()(const glm::dvec3& linear_color) const {
         return truth::toneMapped(tone_map, linear_color, white_point);
     }
+    Set settings() const {
+        if (dial.empty()) return {{"tone_map", tone_map}};
+        return {{"tone_map", tone_map}, {"white_point", shortNumber(white_point)}};
+    }
 };
 
 std::vector<Curve> curves(const fs::path& programs) {
@@ -244,6 +248,7 @@ void drawToneCharts(const fs::path& programs, const fs::path& costs_csv, const f
         table.rows.push_back(row);
         hue.push_back({curve.tone_map, curve.dial, instructions, turned.mean_deg, curve.mark});
         aces.push_back({curve.tone_map, curve.dial, instructions, distance.at_best, curve.mark});
+        hue.back().settings = aces.back().settings = curve.settings();
     }
     // What the fits are fits to: no program's tone map, so without a cost.
     std::vector<std::string> film = {"ACES RRT + ODT", "", "", ""};
@@ -253,16 +258,15 @@ void drawToneCharts(const fs::path& programs, const fs::path& costs_csv, const f
     film.emplace_back("the reference");
     table.rows.push_back(film);
     writeCsv(folder / "tone.csv", table);
-    const std::string x = "instructions per pixel, over those of clamp";
-    const std::string subtitle =
-        "40 colours, each from 6 stops down to 8 up; cost of the display pass at 640x360";
-    drawChart(folder / "tone_hue.svg",
-              {"Tone maps: do colours keep their hue?", subtitle, x, "mean hue error in ICtCp, degrees"},
-              hue);
-    drawChart(folder / "tone_aces.svg",
-              {"Tone maps: how near to the ACES film rendering?", subtitle, x,
-               "mean delta E ITP, each at its best exposure"},
-              aces);
+    Axes axes{.title = "Tone maps: do colours keep their hue?",
+              .subtitle = "40 colours, each from 6 stops down to 8 up; cost of the display pass at 640x360",
+              .x = "instructions per pixel, over those of clamp",
+              .y = "mean hue error in ICtCp, degrees",
+              .rung = "01_hdr"};
+    drawChart(folder / "tone_hue.svg", axes, hue);
+    axes.title = "Tone maps: how near to the ACES film rendering?";
+    axes.y = "mean delta E ITP, each at its best exposure";
+    drawChart(folder / "tone_aces.svg", axes, aces);
 }
 
 } // namespace gll::charts
