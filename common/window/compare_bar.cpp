@@ -18,7 +18,8 @@ bool chosenButton(const char* label, bool is_chosen) {
     return pressed;
 }
 
-void numbers(const Stage& stage, const Comparison& comparison, bool shows_times) {
+void numbers(const Stage& stage, const Comparison& comparison, const std::optional<CostProbe::Costs>& costs,
+             bool shows_times) {
     std::string text = "measuring";
     char words[96];
     if (const auto& measured = comparison.measured()) {
@@ -26,14 +27,18 @@ void numbers(const Stage& stage, const Comparison& comparison, bool shows_times)
                       measured->rmse, 100.0 * measured->pixels / std::max(measured->of, 1));
         text = words;
     }
-    std::snprintf(words, sizeof words, "   A %.1f ms, B %.1f ms", stage.timeMs(Stage::a),
-                  stage.timeMs(Stage::b));
+    if (costs && costs->cu.size() == 2)
+        std::snprintf(words, sizeof words, "   A %.2f, B %.2f cu", costs->cu[0], costs->cu[1]);
+    else
+        std::snprintf(words, sizeof words, "   A %.1f ms, B %.1f ms", stage.timeMs(Stage::a),
+                      stage.timeMs(Stage::b));
     if (shows_times) text += words;
     ImGui::SameLine();
     ImGui::TextDisabled("%s", text.c_str());
     tooltip(
         "How far B is from A, of what the display is sent: FLIP (0 to 1, as the eye sees it), the root mean "
-        "squared difference (0 to 1), and how many pixels differ at all. Then what drawing each took.");
+        "squared difference (0 to 1), and how many pixels differ at all. Then what each costs: the "
+        "time it took, or, once counted beside the window, copies of a frame (cu).");
 }
 
 void exchangeButtons(Stage& stage) {
@@ -73,7 +78,7 @@ void pill(float x, float y, const std::string& text, bool right, float most_widt
 } // namespace
 
 void drawCompareBar(const Rectangle& place, float pixels_per_unit, Stage& stage, Comparison& comparison,
-                    bool shows_times) {
+                    const std::optional<CostProbe::Costs>& costs, bool shows_times) {
     const float em = ImGui::GetFontSize();
     nextWindowAt(place, pixels_per_unit);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.4F * em, 0.25F * em});
@@ -105,7 +110,7 @@ void drawCompareBar(const Rectangle& place, float pixels_per_unit, Stage& stage,
     ImGui::SameLine(0, em);
     if (ImGui::Button("Off")) comparison.mode = Comparison::Mode::off;
     tooltip("C");
-    numbers(stage, comparison, shows_times);
+    numbers(stage, comparison, costs, shows_times);
     ImGui::End();
     ImGui::PopStyleVar(2);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "window/comparison.hpp"
+#include "window/cost_probe.hpp"
 #include "window/glfw_window.hpp"
 #include "window/help.hpp"
 #include "window/history.hpp"
@@ -100,6 +101,7 @@ class RungWindow {
     PassTimer timer_;
     Inspector inspector_;
     Comparison comparison_;
+    CostProbe compared_costs_; // of A and B
     Panel panel_;
     TimelineBar timeline_bar_;
     Help help_;

@@ -193,6 +193,9 @@ void RungWindow::presentPictures(glm::ivec2 window) {
         key.insert(key.end(), {double(picture.size.x), double(picture.size.y)});
         comparison_.measure(a, b, state_.frame, key, now());
         compared = comparison_.picture(a, b);
+        if (state_.shows_times)
+            compared_costs_.ask(shownFrame(), {stage_.sets(Stage::a), stage_.sets(Stage::b)},
+                                headlessContext(), now());
     }
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glDisable(GL_SCISSOR_TEST);
@@ -220,7 +223,8 @@ void RungWindow::drawPanels() {
     const float pixels_per_unit = context_.pixelsPerUnit();
     if (layout_.panel.isShown()) attend(panel_.draw(layout_.panel, pixels_per_unit, settings_, state_));
     if (layout_.bar.isShown())
-        drawCompareBar(layout_.bar, pixels_per_unit, stage_, comparison_, state_.shows_times);
+        drawCompareBar(layout_.bar, pixels_per_unit, stage_, comparison_,
+                       state_.shows_times ? compared_costs_.costs() : std::nullopt, state_.shows_times);
     if (isComparing() && !isInspecting())
         drawCompareLabels(layout_.picture, pixels_per_unit, stage_, comparison_, now());
     if (layout_.timeline.isShown()) {
