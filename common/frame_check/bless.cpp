@@ -156,9 +156,10 @@ class Blesser {
     std::string blessedAlready(Case one, const Blessing& now) const {
         for (Blessing& before : one.blessed) {
             if (before.hash != now.hash || before.renderer != now.renderer || !now.targets.is_object() ||
-                before.targets == now.targets)
+                (before.targets == now.targets && before.cpu == now.cpu))
                 continue;
             before.targets = now.targets;
+            before.cpu = now.cpu; // which may round targets otherwise where the frame is the same
             writeCase(suite_.fileOf(one.name), one);
             return "blessed already; its intermediate targets are noted";
         }

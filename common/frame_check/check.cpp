@@ -1,6 +1,8 @@
 // Each frame against its blessed hashes first, then against pictures under the case's rule.
 #include "frame_check/check.hpp"
 
+#include "frame_check/bless.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <chrono>
@@ -9,10 +11,6 @@
 namespace gll::frame_check {
 namespace {
 namespace fs = std::filesystem;
-
-std::string ruleText(const Rule& rule) {
-    return rule.text() + (rule.because.empty() ? "" : ": " + rule.because);
-}
 
 // A picture to compare with, and what drew it.
 struct Reference {
@@ -101,13 +99,15 @@ double secondsSince(std::chrono::steady_clock::time_point begin) {
 // Draws what differs again, with its intermediate targets, and finds those that are not what they were when
 // the frame was blessed on this renderer.
 void findTargets(const Suite& suite, SuiteResult& checked) {
+    const std::string cpu = cpuFeatures();
     std::vector<CaseResult*> results;
     std::vector<const Case*> cases;
     for (CaseResult& result : checked.cases) {
         const Case* one = suite.find(result.name);
         if (result.outcome != Outcome::different || one == nullptr) continue;
         const Blessing* blessing = one->blessingFor(checked.renderer);
-        if (blessing == nullptr || !blessing->targets.is_object()) continue;
+        // Another processor may round a target otherwise that is no cause of anything.
+        if (blessing == nullptr || !blessing->targets.is_object() || blessing->cpu != cpu) continue;
         results.push_back(&result);
         cases.push_back(one);
     }
@@ -160,7 +160,7 @@ SuiteResult check(const Suite& suite, const CheckOptions& options) {
         const auto begin = std::chrono::steady_clock::now();
         CaseResult result{.suite = suite.name,
                           .name = one->name,
-                          .rule = ruleText(suite.ruleOf(*one)),
+                          .rule = suite.ruleOf(*one),
                           .json_file = suite.fileOf(one->name)};
         try {
             const Frame frame = rendering ? rendering->next() : Frame{.error = cannot_start};
@@ -187,7 +187,7 @@ SuiteResult check(const Suite& suite, const CheckOptions& options) {
 
 CaseResult check(const fs::path& frame, const fs::path& reference, const Rule& rule, bool keeps_map) {
     const auto begin = std::chrono::steady_clock::now();
-    CaseResult result{.name = frame.filename().string(), .rule = ruleText(rule)};
+    CaseResult result{.name = frame.filename().string(), .rule = rule};
     result.frame = frame;
     result.reference = reference;
     try {

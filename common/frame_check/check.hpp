@@ -29,8 +29,8 @@ struct CaseResult {
     std::string suite = {}; // its name; empty for two pictures
     std::string name = {};
     Outcome outcome = Outcome::incomparable;
-    std::string why = {};                 // a sentence, where it is incomparable
-    std::string rule = {};                // Rule::text(), and its reason
+    std::string why = {}; // a sentence, where it is incomparable
+    Rule rule = {};
     double seconds = 0;                   // waited for its frame, and comparing
     std::filesystem::path json_file = {}; // the case's; empty for two pictures
 

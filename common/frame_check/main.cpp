@@ -2,6 +2,7 @@
 // itself.
 #include "frame_check/bless.hpp"
 #include "frame_check/check.hpp"
+#include "frame_check/report.hpp"
 #include "frame_check/say.hpp"
 
 #include <CLI/CLI.hpp>
@@ -20,6 +21,7 @@ struct Options {
     std::string program;
     std::vector<std::string> variables;
     std::vector<std::string> environment;
+    std::string report;
     std::string junit;
     std::string warnings;
     bool github = false;
@@ -59,12 +61,13 @@ SuiteChanges changesIn(const Options& options) {
 }
 
 std::vector<SuiteResult> checkAll(const Options& options) {
-    const CheckOptions check_options{.patterns = options.words, .keeps_maps = false};
+    const CheckOptions check_options{.patterns = options.words, .keeps_maps = !options.report.empty()};
     std::vector<SuiteResult> results;
     if (options.suite.empty()) {
         SuiteResult pair{.name = ""};
         pair.cases.push_back(check(options.words.at(0), options.words.at(1),
-                                   options.rule.empty() ? Rule{} : ruleFromText(options.rule), false));
+                                   options.rule.empty() ? Rule{} : ruleFromText(options.rule),
+                                   !options.report.empty()));
         results.push_back(std::move(pair));
         std::fputs(line(results.back().cases.back()).c_str(), stdout);
         return results;
@@ -86,6 +89,13 @@ std::vector<SuiteResult> checkAll(const Options& options) {
     return results;
 }
 
+std::string titleOf(const Options& options) {
+    if (options.suite.empty())
+        return std::filesystem::path(options.words.at(0)).filename().string() + " against " +
+               std::filesystem::path(options.words.at(1)).filename().string();
+    return "Frames of " + std::filesystem::canonical(options.suite).filename().string();
+}
+
 int checkAndSay(const Options& options) {
     const std::vector<SuiteResult> results = checkAll(options);
     const Counts counts = countsOf(results);
@@ -93,6 +103,7 @@ int checkAndSay(const Options& options) {
     const char* runner = std::getenv("GITHUB_ACTIONS");
     if (options.github || (runner != nullptr && std::string(runner) == "true"))
         std::fputs(annotations(results).c_str(), stdout);
+    if (!options.report.empty()) writeReport(options.report, titleOf(options), results);
     if (!options.junit.empty()) writeJunit(options.junit, results);
     if (!options.warnings.empty()) writeWarnings(options.warnings, results);
     if (std::fflush(stdout) != 0) throw std::runtime_error("stdout: cannot be written, make room there");
@@ -128,6 +139,9 @@ void addOptions(CLI::App& app, Options& options) {
         ->type_name("NAME=VALUE")
         ->take_all()
         ->expected(1);
+    app.add_option("--report", options.report,
+                   "Write a page of all that is not the same, which needs no network")
+        ->type_name("FILE.html");
     app.add_option("--junit", options.junit, "Write the results as JUnit's XML")->type_name("FILE.xml");
     app.add_option("--warnings", options.warnings,
                    "Write a line for each tolerated case; no file where none is")

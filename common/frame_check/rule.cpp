@@ -54,11 +54,34 @@ Rule countRule(const nlohmann::json& knobs) {
     return rule;
 }
 
+Image bytesOf(const measure::ScalarImage& map) {
+    Image image{.width = map.width,
+                .height = map.height,
+                .channels = 1,
+                .color_space = ColorSpace::srgb,
+                .pixels = {}};
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(map.pixels.size());
+    for (const double error : map.pixels)
+        bytes.push_back(static_cast<std::uint8_t>(std::ceil(255 * error)));
+    image.pixels = std::move(bytes);
+    return image;
+}
+
 } // namespace
 
 bool Rule::isLoosened() const {
     return kind == Kind::flip || kind == Kind::rmse ||
            (kind == Kind::count && (codes > usual_codes || share > usual_share));
+}
+
+// A share of whole pixels: without the small slack, 0.5 % of 800 pixels would be 3.
+std::size_t Rule::mostDiffering(std::size_t pixels) const {
+    return static_cast<std::size_t>(share * static_cast<double>(pixels) * (1 + 1e-12));
+}
+
+std::size_t Rule::mostExceeding(std::size_t pixels) const {
+    return static_cast<std::size_t>(share * static_cast<double>(pixels) / exceeding_in * (1 + 1e-12));
 }
 
 std::string Rule::text() const {
@@ -143,10 +166,10 @@ Measurement measure(const Image& reference, const Image& image, bool keep_map) {
         return result;
     }
     try {
-        measure::ScalarImage map = measure::flipMap(image, reference);
+        const measure::ScalarImage map = measure::flipMap(image, reference);
         result.flip_mean = std::accumulate(map.pixels.begin(), map.pixels.end(), 0.0) /
                            static_cast<double>(map.pixels.size());
-        if (keep_map) result.flip_map = std::move(map);
+        if (keep_map) result.flip_map = bytesOf(map);
     } catch (const std::invalid_argument&) { // a color is infinite or not a number: no error can be computed
     }
     return result;
@@ -166,11 +189,9 @@ bool satisfies(const Rule& rule, const Measurement& measurement) {
     case Rule::Kind::count:
         break;
     }
-    // A share of whole pixels: without the small slack, 0.5 % of 800 pixels would be 3.
-    const double tolerated = rule.share * static_cast<double>(comparison.total()) * (1 + 1e-12);
-    const auto exceeding = static_cast<double>(comparison.differingByMoreThan(Rule::small_difference));
-    return static_cast<double>(comparison.differing()) <= tolerated &&
-           exceeding * exceeding_in <= tolerated && comparison.largest() <= rule.codes;
+    return comparison.differing() <= rule.mostDiffering(comparison.total()) &&
+           comparison.differingByMoreThan(Rule::small_difference) <= rule.mostExceeding(comparison.total()) &&
+           comparison.largest() <= rule.codes;
 }
 
 } // namespace gll::frame_check

@@ -32,6 +32,10 @@ struct Rule {
     std::string because = {}; // why it is looser than usual; never empty where it is
 
     bool isLoosened() const;
+    // Of count, in a frame of so many pixels: how many may differ, and how many by more than
+    // small_difference.
+    std::size_t mostDiffering(std::size_t pixels) const;
+    std::size_t mostExceeding(std::size_t pixels) const;
     std::string text() const; // "count", "count, 24 codes, 1 % of the pixels", "exact", "flip=0.01"
 };
 
@@ -53,7 +57,8 @@ Rule ruleFromJson(const nlohmann::json& json);
 struct Measurement {
     measure::Comparison comparison = {};
     std::optional<double> flip_mean = {}; // none where they cannot be compared or a color is no finite number
-    std::optional<measure::ScalarImage> flip_map = {};
+    std::optional<Image> flip_map =
+        {}; // 8-bit grey: FLIP times 255, rounded up so that nothing that is there is 0
 
     double psnrDb() const;
     // "differ 12 (0.016 %)  worst 9 at (5,7)  RMSE 0.0012  PSNR 58.4 dB  FLIP 0.0004"

@@ -60,7 +60,7 @@ std::string junitCase(const CaseResult& result) {
                        escaped(result.name) + "\" time=\"" + seconds(result.seconds) + "\"";
     if (result.outcome == Outcome::same) return text + "/>\n";
     text += ">\n";
-    const std::string details = "settings: " + result.settings + "\nrule: " + result.rule +
+    const std::string details = "settings: " + result.settings + "\nrule: " + result.rule.text() +
                                 "\nto draw it: " + result.render_line +
                                 "\nto accept it: " + result.bless_line + "\n" +
                                 (result.measurement ? result.measurement->comparison.map() : "");

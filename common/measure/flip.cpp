@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -135,16 +136,29 @@ struct Plane {
     }
 };
 
+// Twice as many columns at a time where the processor can; each in the same order, so that no bit changes.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define GLL_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define GLL_WIDE
+#endif
+
+// Four columns at once, in the vectors that compilers for this project have.
+using Four = double __attribute__((vector_size(32)));
+
 // out[x] = sum over k of taps[k] * rows[k][x]. Columns go in blocks that stay in registers over all taps.
-void weigh(const Taps& taps, const double* const* rows, int width, double* out) {
-    constexpr int block = 8;
+GLL_WIDE void weigh(const Taps& taps, const double* const* rows, int width, double* out) {
+    constexpr int block = 16;
     int x = 0;
     for (; x + block <= width; x += block) {
-        std::array<double, block> sums{};
+        Four sums[block / 4] = {};
         for (std::size_t k = 0; k < taps.size(); ++k)
-            for (int i = 0; i < block; ++i)
-                sums[static_cast<std::size_t>(i)] += taps[k] * rows[k][x + i];
-        std::copy(sums.begin(), sums.end(), out + x);
+            for (int i = 0; i < block / 4; ++i) {
+                Four values;
+                std::memcpy(&values, rows[k] + x + 4 * i, sizeof values);
+                sums[i] += taps[k] * values;
+            }
+        std::memcpy(out + x, sums, sizeof sums);
     }
     for (; x < width; ++x) {
         out[x] = 0;
@@ -316,6 +330,7 @@ ScalarImage flipWith(const Filters& filters, const ColorImage& display_light,
             const double feature =
                 std::max(std::abs(one.edge[i] - other.edge[i]), std::abs(one.point[i] - other.point[i]));
             const double feature_error = std::pow(feature / std::numbers::sqrt2, q_f);
+            if (color_error == 0 && feature_error < 1) continue; // 0 to a power above 0
             map.at(x, y) = std::clamp(std::pow(color_error, 1 - feature_error), 0.0, 1.0);
         }
     }

@@ -30,11 +30,13 @@ void onInterrupt(int) {
 // pass.
 class PassProbe final : public PassObserver {
   public:
-    explicit PassProbe(const FrameRequest& request) : target_(request.target), waiting_(request.injections) {}
+    explicit PassProbe(const FrameRequest& request)
+        : target_(request.target), targets_(request.targets), waiting_(request.injections) {}
 
     void after(const DrawnPass& pass) override {
         std::erase_if(waiting_, [&](const Injection& injection) { return inject(injection, pass); });
         if (pass.name == target_) image = readTexture(pass.target->texture(0));
+        if (!targets_.empty()) saveTargets(pass);
     }
 
     std::optional<Image> image;
@@ -67,14 +69,29 @@ class PassProbe final : public PassObserver {
         return false;
     }
 
+    // 003_bright.exr, or 003_geometry.albedo.exr where a pass draws several.
+    void saveTargets(const DrawnPass& pass) {
+        const auto& attachments = pass.target->attachments();
+        for (std::size_t i = 0; i < attachments.size(); ++i) {
+            char number[8];
+            std::snprintf(number, sizeof number, "%03d_", ++saved_ % 1000);
+            const std::string name =
+                number + pass.name + (attachments.size() > 1 ? "." + attachments[i].name : "") + ".exr";
+            saveImage(targets_ / name, forFile(readTexture(pass.target->texture(i)), ".exr"));
+        }
+    }
+
     std::string target_;
+    std::filesystem::path targets_;
+    int saved_ = 0;
     std::vector<Injection> waiting_;
 };
 
 // Whether the frame of a request is also the one that another, which came right before it, has rendered. The
 // same target again is rendered again: whoever asks for it twice compares.
 bool isSameFrame(FrameRequest request, const FrameRequest& before) {
-    if (request.isSequence() || request.cost || request.target == before.target) return false;
+    if (request.isSequence() || request.cost || !request.targets.empty() || request.target == before.target)
+        return false;
     request.target = before.target;
     request.out = before.out;
     request.readings = before.readings;
@@ -198,6 +215,7 @@ void renderRequest(Renderer& renderer, const FrameRequest& request, bool is_draw
                    const RungInfo& info, Settings& settings, const std::function<void()>& rendered) {
     request.applyTo(settings);
     if (!request.out.empty()) checkWritable(request.outFor(request.first_frame));
+    if (!request.targets.empty()) checkWritable(request.targets / "001.exr");
     for (int frame = request.first_frame; frame <= request.last_frame && interrupted == 0;
          frame += request.step) {
         std::optional<Image> image;

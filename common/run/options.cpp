@@ -88,6 +88,9 @@ void parseFrames(const std::string& text, FrameRequest& request) {
 void checkRequest(const FrameRequest& request) {
     if (!request.out.empty() && !isWritableImage(request.out))
         throw UsageError("--out " + request.out.string() + ": the name must end in .png, .exr or .hdr");
+    if (request.isSequence() && !request.targets.empty())
+        throw UsageError("--targets " + request.targets.string() +
+                         ": is for one frame, and several are asked for");
     const bool counted = hasFrameNumber(request.out);
     if (request.isSequence() && !request.out.empty() && !counted)
         throw UsageError("--out " + request.out.string() +
@@ -119,8 +122,8 @@ std::string scalarText(const std::string& key, const nlohmann::json& value) {
     throw UsageError("\"" + key + "\" wants a text, a number, true or false");
 }
 
-const std::vector<std::string> batch_keys = {"size", "frame",  "frames", "preset",   "set",
-                                             "out",  "target", "inject", "readings", "cost"};
+const std::vector<std::string> batch_keys = {"size",   "frame",   "frames", "preset",   "set", "out",
+                                             "target", "targets", "inject", "readings", "cost"};
 
 // The options that name files which this rung takes.
 std::vector<FileOption> fileOptions(const RungInfo& info) {
@@ -154,6 +157,8 @@ FrameRequest parseBatchLine(const std::string& line, FrameRequest request, const
             request.out = scalarText(key, value);
         } else if (key == "target") {
             request.target = scalarText(key, value);
+        } else if (key == "targets") {
+            request.targets = scalarText(key, value);
         } else if (key == "inject" && value.is_string()) {
             request.injections.push_back(parseInjection(scalarText(key, value)));
         } else if (key == "inject" && value.is_array()) {
@@ -321,6 +326,9 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
     app.add_option("--target", options.request.target,
                    "write this target (as it is at the end) or this pass's (right after it) instead")
         ->type_name("NAME");
+    app.add_option("--targets", options.request.targets,
+                   "also write what each pass has drawn into this folder, in order: 001_PASS.exr, 002_...")
+        ->type_name("FOLDER");
     app.add_option("--inject", injections,
                    "overwrite one pixel right after a pass, named by itself or its target, such as "
                    "scene:320,240:nan; may be repeated")
@@ -384,8 +392,9 @@ std::optional<Options> parseOptions(int argc, char** argv, const RungInfo& info,
             "--budget excludes --batch, --cost, --readings and --inject: search first, then ask for them");
 
     const bool needs_headless = !options.request.out.empty() || !frames.empty() ||
-                                !options.request.target.empty() || !batch.empty() || options.request.cost ||
-                                options.request.readings || !injections.empty() || options.budget;
+                                !options.request.target.empty() || !options.request.targets.empty() ||
+                                !batch.empty() || options.request.cost || options.request.readings ||
+                                !injections.empty() || options.budget;
     if (!context.empty())
         options.context = contextKind(context);
     else if (headless || needs_headless)

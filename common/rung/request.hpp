@@ -31,6 +31,7 @@ struct FrameRequest {
     std::vector<std::string> sets; // KEY=VALUE, applied over the preset in order
     std::filesystem::path out;     // empty: nothing is written; with a %d where there are several frames
     std::string target;            // empty: the presented frame; a target's name, or a pass's
+    std::filesystem::path targets; // empty, or the folder for what every pass has drawn, one after the other
     std::vector<Injection> injections;
     bool readings = false;
     bool cost = false;

@@ -75,5 +75,23 @@ TEST(Output, ofAnUnknownTargetKeepsTheOldFile) {
     EXPECT_EQ(contents(folder / "frame.png"), "what was there before");
 }
 
+TEST(Output, ofTargetsIntoAMissingFolderIsRefusedBeforeAnythingIsDrawn) {
+    checkRefusal({"", {"--size", "8x8", "--out", "a.png", "--targets", "none"}, 1, {"none", "folder"}});
+}
+
+TEST(Output, ofTargetsIsAPictureAPassInOrder) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "passes");
+    const Result result =
+        run(rungCommand(folder, {"--size", "8x8", "--out", "a.png", "--targets", "passes"}));
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const std::vector<std::string> names = folder.listing();
+    ASSERT_GT(names.size(), 3U);
+    EXPECT_EQ(names[0], "a.png");
+    EXPECT_TRUE(names[2].starts_with("passes/001_")) << names[2];
+    EXPECT_TRUE(names[3].starts_with("passes/002_")) << names[3];
+    EXPECT_TRUE(names.back().ends_with(".exr"));
+}
+
 } // namespace
 } // namespace gll::test

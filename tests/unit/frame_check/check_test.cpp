@@ -1,6 +1,8 @@
 // Checking suites: each outcome, and that no case stops another.
 #include "frame_check/check.hpp"
 
+#include "frame_check/bless.hpp"
+#include "frame_check/report.hpp"
 #include "frame_check/say.hpp"
 #include "pictures.hpp"
 #include "support/messages.hpp"
@@ -203,8 +205,8 @@ TEST(Targets, nameTheFirstThatDiffers) {
     const std::string hash = measure::pixelHash(grey());
     batch.add("reference", grey());
     batch.add("x", changed(10, 100),
-              R"(, "targets": {"before": ")" + hash + R"(", "first": ")" + hash + R"(", "last": ")" + hash +
-                  "\"}");
+              R"(, "cpu": ")" + frame_check::cpuFeatures() + R"(", "targets": {"before": ")" + hash +
+                  R"(", "first": ")" + hash + R"(", "last": ")" + hash + "\"}");
     const SuiteResult result = batch.check();
     const CaseResult& x = resultOf(result, "x");
     ASSERT_EQ(x.targets.size(), 3U);
@@ -241,6 +243,57 @@ TEST(Results, areSaidInJUnitsXmlAndAsAnnotations) {
     EXPECT_CONTAINS(contents(folder / "warnings.txt"), "cases/nearly: warning, tolerated: differ 1");
     frame_check::writeWarnings(folder / "warnings.txt", {});
     EXPECT_FALSE(std::filesystem::exists(folder / "warnings.txt"));
+}
+
+// What follows a word in a page, up to a double quote.
+std::vector<std::string> afterEach(const std::string& word, const std::string& page) {
+    std::vector<std::string> found;
+    for (auto at = page.find(word); at != std::string::npos; at = page.find(word, at + 1)) {
+        const auto begin = at + word.size();
+        found.push_back(page.substr(begin, page.find('"', begin) - begin));
+    }
+    return found;
+}
+
+TEST(Report, isOneFileThatHoldsItsPicturesAndNothingThatASuiteSaysAsPartOfThePage) {
+    const CopyingSuite copying;
+    addCase(copying, "different", changed(1, 17));
+    addCase(copying, "fine", grey());
+    addCase(copying, "not_drawn", grey());
+    std::filesystem::remove(copying.drawn() / "not_drawn.png");
+    copying.writeCase("new", R"({"note": "</script><script>alert(1)</script>"})");
+    copying.draws("new", grey(8, 8));
+    const TemporaryFolder folder;
+    frame_check::writeReport(folder / "made/report.html", "Frames <of> \"cases\"",
+                             {frame_check::check(copying.suite(), {.keeps_maps = true})});
+    const std::string page = contents(folder / "made/report.html");
+    EXPECT_EQ(page.find("http"), std::string::npos);
+    EXPECT_EQ(page.find("src="), std::string::npos);
+    EXPECT_EQ(page.find("alert(1)</script>"), std::string::npos);
+    // Frame, reference and FLIP of one, the reference of another, the frame of the third.
+    EXPECT_EQ(afterEach("<script type=\"text/plain\" id=\"", page).size(), 5U);
+    EXPECT_EQ(afterEach("\"outcome\":\"", page),
+              (std::vector<std::string>{"different", "incomparable", "incomparable"}));
+    EXPECT_CONTAINS(page, R"("same":["cases/fine"])");
+    EXPECT_CONTAINS(page, R"("histogram":[[17,1]],"worst":[[0,0,17]])");
+    EXPECT_CONTAINS(page, R"("rule_codes":[2,16],"rule_pixels":[384,8])");
+    const std::string reference = contents(copying.path() / "different.png");
+    EXPECT_CONTAINS(page, "iVBORw0KGgo") << "a PNG as it is in its file";
+}
+
+TEST(Report, ofLinearLightHoldsHalvesInTwoPictures) {
+    const TemporaryFolder folder;
+    Image light{.width = 4, .height = 1, .channels = 3, .color_space = ColorSpace::linear, .pixels = {}};
+    light.pixels = std::vector<float>{1, 2, 65504, 1e-7F, -1, 0, 70000, 0.1F, 3, 4, 5, 6};
+    saveImage(folder / "a.exr", light);
+    saveImage(folder / "b.exr", light);
+    SuiteResult pair;
+    pair.cases.push_back(frame_check::check(folder / "a.exr", folder / "b.exr", {}, true));
+    pair.cases[0].outcome = Outcome::different; // to have it shown
+    frame_check::writeReport(folder / "report.html", "light", {pair});
+    const std::string page = contents(folder / "report.html");
+    EXPECT_EQ(afterEach("\"low\":\"", page).size(), 2U);
+    EXPECT_EQ(afterEach("<script type=\"text/plain\" id=\"", page).size(), 4U);
 }
 
 } // namespace

@@ -67,8 +67,13 @@ TEST_F(OptionsTest, aBudgetNamesOneKindOfErrorAndALimitInItsRange) {
 }
 
 TEST_F(OptionsTest, whatWritesOrMeasuresNeedsNoWindow) {
-    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-             {"--out", "a.png"}, {"--frames", "1..2"}, {"--target", "hdr"}, {"--readings"}, {"--cost"}})
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"--out", "a.png"},
+                                               {"--frames", "1..2"},
+                                               {"--target", "hdr"},
+                                               {"--targets", "passes"},
+                                               {"--readings"},
+                                               {"--cost"}})
         EXPECT_EQ(parse(words)->context, ContextKind::headless) << words[0];
     EXPECT_EQ(parse({"--context", "egl"})->context, ContextKind::egl);
     EXPECT_EQ(parse({"--context", "osmesa"})->context, ContextKind::osmesa);
@@ -78,6 +83,7 @@ TEST_F(OptionsTest, whatWritesOrMeasuresNeedsNoWindow) {
 TEST_F(OptionsTest, optionsThatExcludeEachOtherAreRefused) {
     EXPECT_CONTAINS(errorOf({"--frame", "1", "--frames", "1..2"}), "exclude each other");
     EXPECT_CONTAINS(errorOf({"--headless", "--context", "window"}), "exclude each other");
+    EXPECT_CONTAINS(errorOf({"--frames", "1..2", "--targets", "passes"}), "is for one frame");
     EXPECT_CONTAINS(errorOf({"--context", "window", "--out", "a.png"}), "--context window");
     EXPECT_CONTAINS(errorOf({"--context", "window", "--cost"}), "--context window");
     EXPECT_EQ(errorOf({"--headless", "--context", "egl"}), "");
@@ -254,7 +260,7 @@ TEST_F(OptionsTest, aBatchLineHasTheKeysOfTheOptions) {
         parse(
             {"--size", "32x16", "--set", "knee=2", "--batch",
              batch(
-                 R"({"frame": 3, "out": "a.png", "set": {"knee": 0.1, "bloom": false}, "target": "hdr"}
+                 R"({"frame": 3, "out": "a.png", "set": {"knee": 0.1, "bloom": false}, "target": "hdr", "targets": "passes"}
 )"
                  "\n"
                  R"({"frames": "2..8:3", "out": "b_%d.exr", "size": "8x4", "set": ["knee=1"], "readings": true, "cost": true}
@@ -270,6 +276,7 @@ TEST_F(OptionsTest, aBatchLineHasTheKeysOfTheOptions) {
     EXPECT_EQ(first.first_frame, 3);
     EXPECT_EQ(first.last_frame, 3);
     EXPECT_EQ(first.target, "hdr");
+    EXPECT_EQ(first.targets, "passes");
     EXPECT_EQ(first.sets, (std::vector<std::string>{"knee=2", "bloom=off", "knee=0.1"}));
     const FrameRequest& second = options.batch[1];
     EXPECT_EQ(second.size, glm::ivec2(8, 4));
