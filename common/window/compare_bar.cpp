@@ -93,6 +93,9 @@ void drawCompareBar(const Rectangle& place, float pixels_per_unit, Stage& stage,
         if (chosenButton(side == Stage::a ? "A##edit" : "B##edit", stage.edited() == side)) stage.edit(side);
         tooltip("B: which of the two the panel sets, and P and Ctrl+C mean");
     }
+    ImGui::SameLine();
+    if (ImGui::Button("Off")) comparison.mode = Comparison::Mode::off;
+    tooltip("C");
     if (ImGui::GetWindowWidth() > 42 * em) exchangeButtons(stage); // where it is narrow, X will do
     ImGui::SameLine();
     for (const auto mode : {Comparison::Mode::divider, Comparison::Mode::blink, Comparison::Mode::difference,
@@ -107,9 +110,6 @@ void drawCompareBar(const Rectangle& place, float pixels_per_unit, Stage& stage,
                     ? "what is sent to the display, B less A, 16 times as much"
                     : "where the eye sees a difference when A and B alternate: black none, pale yellow most");
     }
-    ImGui::SameLine(0, em);
-    if (ImGui::Button("Off")) comparison.mode = Comparison::Mode::off;
-    tooltip("C");
     numbers(stage, comparison, costs, shows_times);
     ImGui::End();
     ImGui::PopStyleVar(2);

@@ -19,8 +19,12 @@ RungWindow*& shown() { // GLFW's callbacks are plain functions
 void RungWindow::listen() {
     shown() = this;
     GLFWwindow* window = context_.window();
-    glfwSetKeyCallback(window, [](GLFWwindow*, int key, int, int action, int modifiers) {
+    glfwSetKeyCallback(window, [](GLFWwindow*, int key, int scancode, int action, int modifiers) {
         if (action == GLFW_RELEASE) return;
+        // Letters are those that are printed on the keys, wherever those are.
+        const char* name = glfwGetKeyName(key, scancode);
+        if (name != nullptr && name[0] >= 'a' && name[0] <= 'z' && name[1] == '\0')
+            key = GLFW_KEY_A + (name[0] - 'a');
         shown()->key(key, action == GLFW_REPEAT, (modifiers & GLFW_MOD_CONTROL) != 0,
                      (modifiers & GLFW_MOD_SHIFT) != 0);
     });
@@ -100,7 +104,7 @@ void RungWindow::compareKey(int key) {
     if (key == GLFW_KEY_C)
         comparison_.mode =
             comparison_.mode == Comparison::Mode::off ? Comparison::Mode::divider : Comparison::Mode::off;
-    if (comparison_.mode == Comparison::Mode::off) return;
+    if (!isComparing()) return;
     if (key == GLFW_KEY_X) stage_.swap();
     if (key == GLFW_KEY_B) stage_.edit(stage_.edited() == Stage::a ? Stage::b : Stage::a);
     if (key == GLFW_KEY_N) // the next way to show them
@@ -114,8 +118,12 @@ void RungWindow::compareWith(const std::string& preset) {
     comparison_.mode = is_shown ? Comparison::Mode::off : Comparison::Mode::divider;
     if (is_shown) return;
     compared_preset_ = preset;
+    if (stage_.edited() == Stage::b) stage_.copy(Stage::b, Stage::a); // what is seen is compared
     stage_.edit(Stage::a);
     stage_.applyPreset(Stage::b, preset);
+    stage_.shareCamera();
+    if (stage_.differences(Stage::a).empty())
+        say("A and B are the same, " + preset + "; change a setting, or compare with another preset");
 }
 
 glm::dvec2 RungWindow::cursorPx() const { return cursor_ * double(context_.pixelsPerUnit()); }
@@ -136,7 +144,8 @@ RungWindow::Drag RungWindow::dragAt() const {
     const double reach_px = 0.6 * double(ui_->emPx());
     if (layout_.panel.isShown() && std::abs(cursorPx().x - layout_.panel.size.x) < reach_px / 2)
         return Drag::panel_edge;
-    if (ui_->hasMouse()) return Drag::nothing;
+    // The panels know only from the next frame on that the mouse is theirs.
+    if (ui_->hasMouse() || !layout_.picture.contains(cursorPx())) return Drag::nothing;
     if (isInspecting()) return Drag::inspected;
     const bool has_divider = isComparing() && comparison_.mode == Comparison::Mode::divider;
     if (has_divider && std::abs(cursorOnWidth() - comparison_.divider) * layout_.picture.size.x < reach_px)
@@ -155,7 +164,10 @@ void RungWindow::mouseMoved(double x, double y) {
         showEdge();
         break;
     case Drag::panel_edge:
-        wish_.panel_em = static_cast<float>(cursorPx().x) / ui_->emPx();
+        wish_.panel_em = std::max(std::min(static_cast<float>(cursorPx().x),
+                                           widest_panel * static_cast<float>(context_.sizePx().x)) /
+                                      ui_->emPx(),
+                                  narrowest_panel_em);
         break;
     case Drag::divider:
         comparison_.divider = std::clamp(cursorOnWidth(), 0.0, 1.0);

@@ -250,14 +250,15 @@ void Inspector::viewChoices() {
 }
 
 // What is under the cursor, in words.
-std::string Inspector::probe(const Framebuffer& presented, std::optional<glm::ivec2> picture_texel) const {
-    const auto line = [](const std::string& name, glm::ivec2 texel, int height, const std::string& value) {
-        return name + " " + std::to_string(texel.x) + "," + std::to_string(height - 1 - texel.y) + ":  " +
+std::string Inspector::probe(const std::string& name, const Framebuffer& presented,
+                             std::optional<glm::ivec2> picture_texel) const {
+    const auto line = [](const std::string& what, glm::ivec2 texel, int height, const std::string& value) {
+        return what + " " + std::to_string(texel.x) + "," + std::to_string(height - 1 - texel.y) + ":  " +
                value;
     };
     if (!selected_) {
         if (!picture_texel) return {};
-        return line("frame", *picture_texel, presented.size().y,
+        return line(name, *picture_texel, presented.size().y,
                     describe(readTexel(presented.color(), *picture_texel), false, true));
     }
     if (!is_found_ || !copy_.isTaken() || !view_.contains(cursor_)) return {};

@@ -47,7 +47,9 @@ class Inspector final : public PassObserver {
 
     // What is under the cursor, in words; of the picture, where no target is looked into and the cursor is
     // over it (texels, from the lower left). Empty where it is over neither.
-    std::string probe(const Framebuffer& presented, std::optional<glm::ivec2> picture_texel) const;
+    // name: what the picture is called.
+    std::string probe(const std::string& name, const Framebuffer& presented,
+                      std::optional<glm::ivec2> picture_texel) const;
 
     // Above what is looked into: its name, and how it is shown.
     void drawBar(const Rectangle& picture, float pixels_per_unit, float em_px);

@@ -7,7 +7,6 @@
 namespace gll {
 namespace {
 
-constexpr float narrowest_panel_em = 15;
 constexpr float lowest_strip_em = 5;
 
 int pixels(float ems, float em) { return static_cast<int>(std::lround(ems * em)); }
@@ -18,7 +17,7 @@ Layout layOut(glm::ivec2 window, float em, const LayoutWish& wish) {
     Layout layout;
     layout.picture = {{0, 0}, window};
     if (!wish.panel) return layout; // all of it goes with the panel
-    const int widest = static_cast<int>(static_cast<float>(window.x) * 0.6F);
+    const int widest = static_cast<int>(static_cast<float>(window.x) * widest_panel);
     const int narrowest = pixels(narrowest_panel_em, em);
     if (widest < narrowest) return layout;
     const int panel = std::clamp(pixels(wish.panel_em, em), narrowest, widest);

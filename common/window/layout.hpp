@@ -18,6 +18,9 @@ struct Rectangle {
     bool operator==(const Rectangle&) const = default;
 };
 
+inline constexpr float narrowest_panel_em = 15;
+inline constexpr float widest_panel = 0.6F; // of the window's width
+
 // What a person wants shown, in ems: the height of a line of text.
 struct LayoutWish {
     bool panel = true;

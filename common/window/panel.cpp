@@ -95,8 +95,8 @@ std::string labelOf(const std::string& name) {
     static const std::map<std::string, std::string> units = {
         {"ev", "(EV)"}, {"s", "(s)"}, {"deg", "(\u00b0)"}, {"px", "(px)"}, {"percent", "(%)"}};
     static const std::map<std::string, std::string> acronyms = {
-        {"ssao", "SSAO"}, {"brdf", "BRDF"}, {"pcf", "PCF"},         {"hdr", "HDR"},
-        {"aa", "AA"},     {"v", "V"},       {"gbuffer", "G-buffer"}};
+        {"ssao", "SSAO"}, {"brdf", "BRDF"}, {"pcf", "PCF"}, {"hdr", "HDR"},
+        {"aa", "AA"},     {"flip", "FLIP"}, {"v", "V"},     {"gbuffer", "G-buffer"}};
     std::string label;
     std::size_t begin = 0;
     while (begin <= name.size()) {
@@ -116,19 +116,25 @@ std::string labelOf(const std::string& name) {
 
 Panel::Panel(std::string rung, Settings& settings) : rung_(std::move(rung)) {
     const std::vector<double> now = valuesOf(settings);
-    std::ptrdiff_t most_alike = -1;
     for (const Settings::Preset& preset : settings.presets()) {
         settings.applyPreset(preset.name);
         presets_.push_back({preset.name, preset.help, valuesOf(settings)});
-        std::ptrdiff_t alike = 0;
-        for (std::size_t i = 0; i < now.size(); ++i)
-            alike += now[i] == presets_.back().values[i] ? 1 : 0;
-        if (alike <= most_alike) continue;
-        most_alike = alike;
-        preset_ = presets_.size() - 1;
     }
     for (std::size_t i = 0; i < now.size(); ++i)
         settings.all()[i].value = now[i];
+    choosePreset(now);
+}
+
+void Panel::choosePreset(const std::vector<double>& now) {
+    std::ptrdiff_t most_alike = -1;
+    for (std::size_t k = 0; k < presets_.size(); ++k) {
+        std::ptrdiff_t alike = 0;
+        for (std::size_t i = 0; i < now.size(); ++i)
+            alike += now[i] == presets_[k].values[i] ? 1 : 0;
+        if (alike <= most_alike) continue;
+        most_alike = alike;
+        preset_ = k;
+    }
 }
 
 double Panel::presetValue(const Settings& settings, const Setting& setting) const {
@@ -139,6 +145,10 @@ double Panel::presetValue(const Settings& settings, const Setting& setting) cons
 
 void Panel::presetsSection(Settings& settings, const PanelState& state, PanelActions& actions) {
     const std::vector<double> now = valuesOf(settings);
+    if (state.edited != edited_) choosePreset(now); // another side's settings
+    edited_ = state.edited;
+    for (std::size_t k = 0; k < presets_.size(); ++k)
+        if (now == presets_[k].values) preset_ = k;
     std::size_t changes = 0;
     for (std::size_t i = 0; i < now.size(); ++i)
         changes += now[i] == presets_[preset_].values[i] ? 0 : 1;

@@ -79,10 +79,12 @@ class Panel {
     void chartSection(Settings& settings);
     void budgetSection(const PanelState& state, PanelActions& actions);
     void timesSection(const PanelState& state, PanelActions& actions);
+    void choosePreset(const std::vector<double>& now); // the one most alike
     double presetValue(const Settings& settings, const Setting& setting) const;
 
     std::string rung_;
     std::vector<Preset> presets_;
+    std::string edited_;             // the side that was shown last
     std::size_t preset_ = 0;         // the one that settings are marked to differ from
     std::optional<ChartView> chart_; // once it was looked at
     Budget budget_{Budget::Kind::flip, 0.01};

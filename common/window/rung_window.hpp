@@ -60,8 +60,9 @@ class RungWindow {
     void compareWith(const std::string& preset); // or no longer, where that is what is compared with
 
     // A loop's parts.
+    void prepare();
     void render();
-    PassObserver* observe(bool is_asked);
+    std::string probe() const;
     void present(glm::ivec2 window);
     void presentPictures(glm::ivec2 window);
     void drawPanels();

@@ -81,17 +81,19 @@ void Stage::setValues(int side, const History::State& values) {
 
 History::State Stage::state() const {
     History::State state = valuesOf(a);
-    const History::State other = valuesOf(b);
+    History::State other = valuesOf(b);
+    History::State& not_edited = edited_ == a ? other : state;
+    for (std::size_t i = 0; i < state.size(); ++i)
+        if (const Setting& setting = settings_.all()[i]; setting.group == Setting::Group::camera)
+            not_edited[i] = setting.value;
     state.insert(state.end(), other.begin(), other.end());
-    state.push_back(edited_);
     return state;
 }
 
 void Stage::setState(const History::State& state) {
     const auto middle = state.begin() + static_cast<std::ptrdiff_t>(settings_.all().size());
-    edit(static_cast<int>(state.back()));
     setValues(a, {state.begin(), middle});
-    setValues(b, {middle, state.end() - 1});
+    setValues(b, {middle, state.end()});
 }
 
 void Stage::edit(int side) {
@@ -161,15 +163,19 @@ std::vector<ShaderError> Stage::errors(int side) const {
     return at(side).live ? at(side).live->errors() : std::vector<ShaderError>();
 }
 
+void Stage::prepare(int side) {
+    if (!at(side).renderer) with(side, [&] { make(at(side), given_); });
+}
+
 bool Stage::render(int side, int frame, glm::ivec2 size, PassObserver* observer, bool again) {
     Side& one = at(side);
     const std::vector<std::string> sets_now = sets(side);
-    if (!one.renderer) with(side, [&] { make(one, given_); });
     const bool is_edited = one.live->update();
     if (!again && !is_edited && frame == one.frame && size == one.size && sets_now == one.sets) return false;
     one.frame = frame;
     one.size = size;
     one.sets = sets_now;
+    ++one.rendered_count;
     const auto start = std::chrono::steady_clock::now();
     with(side, [&] { one.live->attempt([&] { one.renderer->render(frame, size, observer); }); });
     if (context_.info().is_software) glFinish();
@@ -191,12 +197,14 @@ void Stage::load(const RungFiles& given) {
     Side fresh;
     make(fresh, given);
     fresh.values = at(a).values;
+    fresh.rendered_count = at(a).rendered_count; // which goes on, so that no two frames have the same
     given_ = given;
     at(a).live.reset(); // before the renderer that it watches for
     at(b).live.reset();
     at(a) = std::move(fresh);
     Side other;
     other.values = at(b).values;
+    other.rendered_count = at(b).rendered_count;
     at(b) = std::move(other);
 }
 

@@ -25,7 +25,8 @@ class Stage {
     // The settings are always those of the side that is edited, which is A at first; B begins as A is.
     Stage(Context& context, const RungInfo& info, Settings& settings, RungFiles given);
 
-    // Everything that undo brings back: the settings of both sides, and which is edited.
+    // Everything that undo brings back: the settings of both sides, with the camera of the one that is
+    // edited.
     History::State state() const;
     void setState(const History::State& state);
 
@@ -40,10 +41,15 @@ class Stage {
     // The settings of a side that differ from the other's, as "tone_map=agx".
     std::vector<std::string> differences(int side) const;
 
-    // Renders a side unless its frame is there already, its shaders are as they were, and it is not asked for
-    // again. A frame that cannot be drawn ends nothing: errors() says why.
+    // Makes the side's renderer where it has none. Throws as load() does.
+    void prepare(int side);
+    // Renders a prepared side unless its frame is there already, its shaders are as they were, and it is not
+    // asked for again. A frame that cannot be drawn ends nothing: errors() says why.
     bool render(int side, int frame, glm::ivec2 size, PassObserver* observer, bool again);
-    Renderer& renderer(int side) const { return *sides_[static_cast<std::size_t>(side)].renderer; }
+    Renderer& renderer(int side) const {
+        return *sides_[static_cast<std::size_t>(side)].renderer;
+    }                                                                     // prepared
+    int renderedCount(int side) const { return at(side).rendered_count; } // frames drawn, or tried
     bool isRendered(int side) const { return sides_[static_cast<std::size_t>(side)].frame > 0; }
     bool isDrawn(int side) const; // the frame that was tried last
     std::vector<ShaderError> errors(int side) const;
@@ -68,6 +74,7 @@ class Stage {
         std::vector<std::string> sets = {};
         std::unique_ptr<LiveShaders> live = {}; // goes before the renderer
         double time_ms = 0;
+        int rendered_count = 0;
     };
     void make(Side& side, const RungFiles& given) const;
     Side& at(int side) { return sides_[static_cast<std::size_t>(side)]; }

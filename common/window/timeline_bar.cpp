@@ -22,6 +22,7 @@ void frameNumber(const char* label, int& frame, const char* help) {
 TimelineBar::Actions TimelineBar::draw(const Rectangle& place, float pixels_per_unit, Timeline& timeline,
                                        const RecordingState& recording) {
     Actions actions;
+    if (timeline.loop() && !ImGui::GetIO().WantTextInput) range_ = *timeline.loop();
     nextWindowAt(place, pixels_per_unit);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding,
                         {0.4F * ImGui::GetFontSize(), 0.25F * ImGui::GetFontSize()});
@@ -78,7 +79,9 @@ TimelineBar::Actions TimelineBar::draw(const Rectangle& place, float pixels_per_
         if (loops && !(before == range_) && range_.first <= range_.last) timeline.setLoop(range_);
         ImGui::SameLine();
         if (recording.is_recording) {
-            if (ImGui::Button("Cancel")) actions.cancel_recording = true;
+            const std::string label =
+                "Cancel " + std::to_string(recording.done) + "/" + std::to_string(recording.of) + "###cancel";
+            if (ImGui::Button(label.c_str())) actions.cancel_recording = true;
             tooltip("ends the recording, and keeps what is written: " + std::to_string(recording.done) +
                     " of " + std::to_string(recording.of));
         } else {

@@ -13,7 +13,9 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <stdexcept>
+#include <utility>
 
 namespace gll {
 namespace {
@@ -32,6 +34,18 @@ void blit(const Framebuffer& from, int first_column, const Rectangle& place, glm
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
+// Said at once, and not after an hour in the window.
+void requireWritable(const std::filesystem::path& file) {
+    const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+    std::error_code error;
+    if (std::filesystem::is_directory(file, error))
+        throw std::runtime_error(file.string() + ": is a folder; name a file for --window-state");
+    if (!std::filesystem::is_directory(folder, error))
+        throw std::runtime_error(folder.string() +
+                                 ": there is no such folder; make it, or name another file for "
+                                 "--window-state");
+}
+
 // For who started the program in a terminal.
 void print(const std::string& text) {
     std::printf("%s\n", text.c_str());
@@ -41,10 +55,12 @@ void print(const std::string& text) {
 // Tells both, in this order.
 class Both final : public PassObserver {
   public:
+    std::function<void()> at_first; // called before the first pass
     PassObserver* first = nullptr;
     PassObserver* second = nullptr;
 
     void before(const std::string& pass) override {
+        if (at_first) std::exchange(at_first, nullptr)();
         if (first != nullptr) first->before(pass);
         if (second != nullptr) second->before(pass);
     }
@@ -66,6 +82,7 @@ RungWindow::RungWindow(const FrameRequest& request, const WindowRequest& wished,
     ui_.emplace(context_);
     WindowState state;
     std::error_code error;
+    if (!state_file_.empty()) requireWritable(state_file_);
     const bool has_state = !state_file_.empty() && std::filesystem::exists(state_file_, error);
     if (has_state) state = readWindowState(state_file_);
     const WindowPreferences preferences = has_state ? state.preferences : rememberedPreferences();
@@ -78,6 +95,7 @@ RungWindow::RungWindow(const FrameRequest& request, const WindowRequest& wished,
     state_.shows_times = preferences.shows_times;
     glfwSwapInterval(state_.waits_for_display ? 1 : 0);
     if (has_state) adopt(state);
+    if (has_state && request.preset != FrameRequest().preset) settings_.applyPreset(request.preset);
     if (wished.is_frame_given) timeline_.seek(request.first_frame);
     for (const std::string& set : request.sets)
         settings_.set(set);
@@ -123,13 +141,15 @@ void RungWindow::render() {
     const bool times = strip || (layout_.panel.isShown() && panel_.wantsPassTimes());
     const bool again = (times && timeline_.isPlaying()) || (strip && inspector_.wantsFrame()) ||
                        (times && state_.pass_times.empty()) || times != timed_ || strip != observed_;
+    prepare();
     const int side = stage_.edited();
     if (isComparing()) {
         stage_.shareCamera();
         stage_.render(side == Stage::a ? Stage::b : Stage::a, frame, layout_.picture.size, nullptr, false);
     }
-    if (times) state_.pass_times = timer_.begin();
     Both both;
+    // Not before a frame that is there already: its times would be gone.
+    if (times) both.at_first = [&] { state_.pass_times = timer_.begin(); };
     if (times) both.first = &timer_;
     if (strip) {
         both.second = &inspector_;
@@ -145,14 +165,39 @@ void RungWindow::render() {
     observed_ = strip;
     state_.frame = frame;
     state_.frame_time_ms = stage_.timeMs(side);
+    state_.is_gpu_time = times && !context_.info().is_software && !state_.pass_times.empty();
+    if (state_.is_gpu_time) {
+        state_.frame_time_ms = 0; // of the frame before, in the GPU's own time
+        for (const PassTime& pass : state_.pass_times)
+            state_.frame_time_ms += pass.time_ms;
+    }
     readings_are_current_ = false;
     state_.shown_per_s += 0.15 * (1 / std::max(now() - last_rendered_s_, 1e-4) - state_.shown_per_s);
     last_rendered_s_ = now();
     showWarnings();
 }
 
+// What is to be seen is ready to be rendered; where it cannot be, such as for a file that is gone, A goes on.
+void RungWindow::prepare() {
+    try {
+        stage_.prepare(stage_.edited());
+        if (isComparing()) stage_.prepare(stage_.edited() == Stage::a ? Stage::b : Stage::a);
+    } catch (const std::exception& error) {
+        say(error.what());
+        comparison_.mode = Comparison::Mode::off;
+        stage_.edit(Stage::a);
+    }
+}
+
 void RungWindow::present(glm::ivec2 window) {
-    presentPictures(window);
+    try {
+        presentPictures(window);
+    } catch (const std::exception& error) { // such as a shader of the window's own that is being edited
+        say(error.what());
+        inspector_.select(std::nullopt);
+        comparison_.mode = Comparison::Mode::off;
+        presentPictures(window);
+    }
     const int side = stage_.edited();
     state_.is_playing = timeline_.isPlaying();
     if (layout_.panel.isShown() && !readings_are_current_ && stage_.isDrawn(side)) {
@@ -188,9 +233,8 @@ void RungWindow::presentPictures(glm::ivec2 window) {
     if (isComparing() && !isInspecting()) {
         Renderer& a = stage_.renderer(Stage::a);
         Renderer& b = stage_.renderer(Stage::b);
-        History::State key = stage_.state();
-        key.back() = state_.frame; // whichever side is edited
-        key.insert(key.end(), {double(picture.size.x), double(picture.size.y)});
+        const History::State key = {double(stage_.renderedCount(Stage::a)),
+                                    double(stage_.renderedCount(Stage::b))};
         comparison_.measure(a, b, state_.frame, key, now());
         compared = comparison_.picture(a, b);
         if (state_.shows_times)
@@ -237,18 +281,28 @@ void RungWindow::drawPanels() {
     if (isInspecting()) inspector_.drawBar(layout_.picture, pixels_per_unit, ui_->emPx());
     if (layout_.strip.isShown())
         inspector_.drawStrip(layout_.strip, pixels_per_unit,
-                             state_.shows_times ? state_.pass_times : std::vector<PassTime>(),
-                             inspector_.probe(stage_.renderer(stage_.edited()).presented(), pictureTexel()));
+                             state_.shows_times ? state_.pass_times : std::vector<PassTime>(), probe());
     help_.draw(layout_.picture, pixels_per_unit);
+}
+
+// Of the picture that is under the cursor.
+std::string RungWindow::probe() const {
+    int side = stage_.edited();
+    if (isComparing() && comparison_.mode == Comparison::Mode::divider)
+        side = cursorOnWidth() < comparison_.divider ? Stage::a : Stage::b;
+    else if (isComparing() && comparison_.mode == Comparison::Mode::blink)
+        side = Comparison::showsB(now()) ? Stage::b : Stage::a;
+    const char* name = !isComparing() ? "frame" : side == Stage::a ? "A, frame" : "B, frame";
+    return inspector_.probe(name, stage_.renderer(side).presented(), pictureTexel());
 }
 
 void RungWindow::drawMessages() {
     if (const auto said = recorder_.poll()) say(*said);
     int side = stage_.edited();
-    if (isComparing() && stage_.errors(side).empty()) side = side == Stage::a ? Stage::b : Stage::a;
+    const int other = side == Stage::a ? Stage::b : Stage::a;
+    if (isComparing() && (stage_.errors(side).empty() || !stage_.isDrawn(other))) side = other;
     errorsOver(layout_.picture, context_.pixelsPerUnit(), stage_.errors(side), stage_.isDrawn(side));
-    if (now() < message_until_s_ && layout_.panel.isShown())
-        messageOver(layout_.picture, context_.pixelsPerUnit(), message_);
+    if (now() < message_until_s_) messageOver(layout_.picture, context_.pixelsPerUnit(), message_);
 }
 
 void RungWindow::attend(const PanelActions& asked) {
@@ -417,7 +471,9 @@ void RungWindow::say(const std::string& message) {
 WindowState RungWindow::windowState() const {
     return {.preferences = {.panel = wish_.panel,
                             .strip = wish_.strip,
-                            .panel_em = double(wish_.panel_em),
+                            .panel_em = double(layout_.panel.isShown()
+                                                   ? static_cast<float>(layout_.panel.size.x) / ui_->emPx()
+                                                   : wish_.panel_em),
                             .text_size = double(state_.text_size),
                             .waits_for_display = state_.waits_for_display,
                             .shows_times = state_.shows_times},
@@ -466,10 +522,14 @@ void RungWindow::leave() {
     const WindowState state = windowState();
     rememberPreferences(state.preferences);
     if (state_file_.empty()) return;
-    std::ofstream file(state_file_);
+    const std::filesystem::path fresh = state_file_.string() + ".new"; // never half of a state
+    std::ofstream file(fresh);
     file << windowStateJson(state);
     file.close();
-    if (!file) throw std::runtime_error(state_file_.string() + ": cannot be written; name another file");
+    std::error_code error;
+    if (file) std::filesystem::rename(fresh, state_file_, error);
+    if (!file || error)
+        throw std::runtime_error(state_file_.string() + ": cannot be written; name another file");
 }
 
 int runWindow(const FrameRequest& request, const WindowRequest& wished, const RungInfo& info,

@@ -102,14 +102,14 @@ TEST_F(InspectorTest, aTargetThatIsNotDrawnIsNotLookedInto) {
 TEST_F(InspectorTest, aPixelIsReadWhereTheCursorIs) {
     look({"first", "hdr"});
     inspector.look(renderer, {{0, 0}, {side, side}}, {1.5, 6.5}); // from the top left
-    EXPECT_TRUE(inspector.probe(renderer.presented(), std::nullopt).starts_with("hdr 1,6:  nan"))
-        << inspector.probe(renderer.presented(), std::nullopt);
+    EXPECT_TRUE(inspector.probe("frame", renderer.presented(), std::nullopt).starts_with("hdr 1,6:  nan"))
+        << inspector.probe("frame", renderer.presented(), std::nullopt);
     inspector.look(renderer, {{0, 0}, {side, side}}, {100, 100});
-    EXPECT_EQ(inspector.probe(renderer.presented(), std::nullopt), "");
+    EXPECT_EQ(inspector.probe("frame", renderer.presented(), std::nullopt), "");
     inspector.select(std::nullopt);
-    const std::string picture = inspector.probe(renderer.presented(), glm::ivec2(0, side - 1));
+    const std::string picture = inspector.probe("frame", renderer.presented(), glm::ivec2(0, side - 1));
     EXPECT_TRUE(picture.starts_with("frame 0,0:  0.50196")) << picture;
-    EXPECT_EQ(inspector.probe(renderer.presented(), std::nullopt), "");
+    EXPECT_EQ(inspector.probe("frame", renderer.presented(), std::nullopt), "");
 }
 
 TEST_F(InspectorTest, zoomKeepsWhatIsUnderTheCursor) {

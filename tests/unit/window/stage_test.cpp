@@ -29,7 +29,10 @@ class FlatRung final : public Rung {
 class StageTest : public GlTest {
   protected:
     float shown(int side) const { return pixelOf(stage.renderer(side).presented().color(), 0, 0).r; }
-    bool render(int side, int frame = 1) { return stage.render(side, frame, {4, 4}, nullptr, false); }
+    bool render(int side, int frame = 1) {
+        stage.prepare(side);
+        return stage.render(side, frame, {4, 4}, nullptr, false);
+    }
 
     Settings settings;
     Number gray = settings.number("gray", 0.2, 0, 1, "help");
@@ -70,24 +73,34 @@ TEST_F(StageTest, onlyTheCameraIsShared) {
     EXPECT_EQ(stage.sets(Stage::b), std::vector<std::string>{"yaw=90"});
 }
 
-TEST_F(StageTest, aStateIsBothSidesAndWhichIsEdited) {
+TEST_F(StageTest, aStateIsTheSettingsOfBothSides) {
     const History::State first = stage.state();
     stage.edit(Stage::b);
+    EXPECT_EQ(stage.state(), first); // looking at the other side is no change
     settings.set("gray", "0.6");
     const History::State second = stage.state();
+    EXPECT_NE(second, first);
     stage.setState(first);
-    EXPECT_EQ(stage.edited(), Stage::a);
     EXPECT_TRUE(stage.sets(Stage::b).empty());
     stage.setState(second);
-    EXPECT_EQ(stage.edited(), Stage::b);
     EXPECT_EQ(settings.at("gray").text(), "0.6");
     EXPECT_TRUE(stage.sets(Stage::a).empty());
+}
+
+TEST_F(StageTest, sharingTheCameraIsNoChangeOfItsOwn) {
+    settings.group(Setting::Group::camera, {"yaw"});
+    settings.set("yaw", "90");
+    const History::State before = stage.state();
+    stage.shareCamera();
+    EXPECT_EQ(stage.state(), before);
 }
 
 TEST_F(StageTest, whatIsThereIsNotRenderedAgain) {
     EXPECT_TRUE(render(Stage::a));
     EXPECT_FALSE(render(Stage::a));
+    EXPECT_EQ(stage.renderedCount(Stage::a), 1);
     EXPECT_TRUE(render(Stage::a, 2));
+    EXPECT_EQ(stage.renderedCount(Stage::a), 2);
     settings.set("gray", "0.3");
     EXPECT_TRUE(render(Stage::a, 2));
     EXPECT_EQ(stage.rendered(Stage::a).sets, std::vector<std::string>{"gray=0.3"});
@@ -118,6 +131,7 @@ TEST_F(StageTest, aFileThatCannotBeReadLeavesTheSceneAsItIs) {
     stage.load(given);
     EXPECT_EQ(stage.given().mesh, "good.obj");
     EXPECT_TRUE(render(Stage::a)); // anew
+    EXPECT_EQ(stage.renderedCount(Stage::a), 2);
     EXPECT_EQ(stage.rendered(Stage::a).files.mesh, "good.obj");
     EXPECT_TRUE(render(Stage::b));
 }
