@@ -21,7 +21,8 @@ class DeferredStability : public testing::Test {
     static inline PageTable table{deferred_rung};
 };
 
-// Of a frame as it is displayed. At most a quarter of a pixel is no change that anybody could see in the scene.
+// Of a frame as it is displayed. At most a quarter of a pixel is no change that anybody could see in the
+// scene.
 TEST_F(DeferredStability, sparklesWhereTexturesAndOcclusionAreSampledTooRarely) {
     struct Case {
         const char* name;
