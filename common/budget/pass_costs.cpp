@@ -67,7 +67,8 @@ std::optional<CountedPasses> countPasses(FrameRequest request,
     for (const std::vector<std::string>& sets : settings)
         lines += nlohmann::json{{"cost", "passes"}, {"set", sets}}.dump() + "\n";
     const TemporaryFile file(lines);
-    request.out.clear(); // nothing is written twice
+    request.out.clear();                      // nothing is written twice
+    request.last_frame = request.first_frame; // of a sequence, what the first one costs
     Command command = headlessCommand(request, context);
     command.arguments.insert(command.arguments.end(),
                              {"--batch", file.name(), "--json", "--counter", counter});
