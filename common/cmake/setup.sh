@@ -28,6 +28,7 @@ zlib1g-dev              zlib: whether the rows of an EXR are whole
 libtinyobjloader-dev    tinyobjloader: reads OBJ
 nlohmann-json3-dev      JSON
 libcli11-dev            CLI11: the command line
+libcpp-httplib-dev      cpp-httplib: frame_check's page for reviews
 "
 test_packages="
 libgtest-dev            GoogleTest

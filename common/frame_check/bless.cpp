@@ -22,10 +22,8 @@ std::string today() {
     return text;
 }
 
-void requirePerson(const BlessOptions& options) {
-    const char* ci = std::getenv("CI");
-    if (ci != nullptr && *ci != '\0' && std::string(ci) != "false")
-        throw std::runtime_error("blessing is for people who have looked at the pictures; CI is set here");
+void requireReason(const BlessOptions& options) {
+    requirePerson();
     if (options.because.find_first_not_of(" \t\n") == std::string::npos)
         throw std::runtime_error("say why the frames are right: --because TEXT");
 }
@@ -110,9 +108,17 @@ std::vector<Drawn> draw(const Suite& suite, const std::vector<const Case*>& case
     return drawn;
 }
 
+// What depends on chance, on the frame before or on a program that is being changed is no reference.
+void requireAlike(const Suite& suite, const Case& one, const Image& first, const Image& again,
+                  const std::string& how, const std::string& what_to_do) {
+    const Measurement twice = measure(first, again, false);
+    if (!satisfies(suite.ruleOf(one), twice))
+        throw std::runtime_error("is not " + how + ", " + twice.line() + "; " + what_to_do);
+}
+
 class Blesser {
   public:
-    Blesser(Suite& suite, const BlessOptions& options)
+    Blesser(const Suite& suite, const BlessOptions& options)
         : suite_(suite), options_(options), renderer_(rendererOf(suite)), cpu_(cpuFeatures()) {}
 
     // What became of it, in words; throws where it is not accepted.
@@ -196,7 +202,7 @@ class Blesser {
 } // namespace
 
 bool bless(Suite suite, const BlessOptions& options) {
-    requirePerson(options);
+    requireReason(options);
     std::vector<const Case*> cases = chosenCases(suite, options);
     const Blesser blesser(suite, options);
     const std::vector<Drawn> frames = draw(suite, cases, hasTargets(suite));
@@ -212,10 +218,8 @@ bool bless(Suite suite, const BlessOptions& options) {
         try {
             for (const Drawn* drawn : {std::as_const(frames).data() + i, std::as_const(again).data() + i})
                 if (!drawn->image) throw std::runtime_error("cannot be drawn: " + drawn->error);
-            const Measurement twice = measure(*frames[i].image, *again[i].image, false);
-            if (!satisfies(suite.ruleOf(*cases[i]), twice))
-                throw std::runtime_error("is not the same twice, " + twice.line() +
-                                         "; mend what it depends on, or give it a rule that allows for it");
+            requireAlike(suite, *cases[i], *frames[i].image, *again[i].image, "the same twice",
+                         "mend what it depends on, or give it a rule that allows for it");
             became = blesser.bless(*cases[i], frames[i]);
         } catch (const std::exception& error) {
             became = std::string("NOT BLESSED: ") + error.what();
@@ -224,6 +228,26 @@ bool bless(Suite suite, const BlessOptions& options) {
         std::printf("%s: %s\n", cases[i]->name.c_str(), became.c_str());
     }
     return all;
+}
+
+void requirePerson() {
+    const char* ci = std::getenv("CI");
+    if (ci != nullptr && *ci != '\0' && std::string(ci) != "false")
+        throw std::runtime_error("blessing is for people who have looked at the pictures; CI is set here");
+}
+
+std::string accept(const Suite& suite, const std::string& name, const Image& shown,
+                   const BlessOptions& options) {
+    requireReason(options);
+    const Case* one = suite.find(name);
+    if (one == nullptr) throw std::runtime_error("the case is gone from " + suite.folder.string());
+    const Drawn again = draw(suite, {one}, hasTargets(suite)).front();
+    if (!again.image) throw std::runtime_error("cannot be drawn again: " + again.error);
+    requireAlike(suite, *one, shown, *again.image, "drawn again as it is shown",
+                 "begin the review anew where the program has changed, or mend what the frame depends on");
+    Drawn accepted{.image = shown};
+    if (measure::pixelHash(*again.image) == measure::pixelHash(shown)) accepted.targets = again.targets;
+    return Blesser(suite, options).bless(*one, accepted);
 }
 
 std::string cpuFeatures() {

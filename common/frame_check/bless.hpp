@@ -23,6 +23,16 @@ struct BlessOptions {
 // no case.
 bool bless(Suite suite, const BlessOptions& options);
 
+// Throws std::runtime_error where CI is set: nobody is there to look.
+void requirePerson();
+
+// Accepts the very frame that somebody was shown, once the case has been drawn again and came out alike,
+// within its rule: what was looked at is what becomes the reference, and a frame by chance becomes none. Of
+// the options, `because` and `adds` count. Returns what became of it. Throws std::runtime_error where it is
+// not accepted.
+std::string accept(const Suite& suite, const std::string& name, const Image& shown,
+                   const BlessOptions& options);
+
 // What matters to how a software rasteriser rounds: the processor's extensions, and what the environment
 // takes from it. "sse4.1 avx avx2 fma"
 std::string cpuFeatures();

@@ -3,6 +3,7 @@
 #include "frame_check/bless.hpp"
 #include "frame_check/check.hpp"
 #include "frame_check/report.hpp"
+#include "frame_check/review.hpp"
 #include "frame_check/say.hpp"
 
 #include <CLI/CLI.hpp>
@@ -26,6 +27,8 @@ struct Options {
     std::string warnings;
     bool github = false;
     bool quiet = false;
+    bool reviews = false;
+    bool opens = false;
     bool blesses = false;
     bool all = false;
     BlessOptions bless;
@@ -61,7 +64,8 @@ SuiteChanges changesIn(const Options& options) {
 }
 
 std::vector<SuiteResult> checkAll(const Options& options) {
-    const CheckOptions check_options{.patterns = options.words, .keeps_maps = !options.report.empty()};
+    const CheckOptions check_options{.patterns = options.words,
+                                     .keeps_maps = !options.report.empty() || options.reviews};
     std::vector<SuiteResult> results;
     if (options.suite.empty()) {
         SuiteResult pair{.name = ""};
@@ -97,7 +101,8 @@ std::string titleOf(const Options& options) {
 }
 
 int checkAndSay(const Options& options) {
-    const std::vector<SuiteResult> results = checkAll(options);
+    if (options.reviews) requirePerson();
+    std::vector<SuiteResult> results = checkAll(options);
     const Counts counts = countsOf(results);
     if (!options.suite.empty()) std::puts(counts.text().c_str());
     const char* runner = std::getenv("GITHUB_ACTIONS");
@@ -107,7 +112,12 @@ int checkAndSay(const Options& options) {
     if (!options.junit.empty()) writeJunit(options.junit, results);
     if (!options.warnings.empty()) writeWarnings(options.warnings, results);
     if (std::fflush(stdout) != 0) throw std::runtime_error("stdout: cannot be written, make room there");
-    return counts.exitCode();
+    if (options.reviews)
+        review(results, {.title = titleOf(options),
+                         .changes = changesIn(options),
+                         .adds = options.bless.adds,
+                         .opens = options.opens});
+    return countsOf(results).exitCode();
 }
 
 int blessSuite(Options options) {
@@ -149,11 +159,16 @@ void addOptions(CLI::App& app, Options& options) {
     app.add_flag("--github", options.github,
                  "Say GitHub's annotations, too (also where GITHUB_ACTIONS=true)");
     app.add_flag("--quiet", options.quiet, "No line for cases that are the same");
+    app.add_flag(
+        "--review", options.reviews,
+        "Then show the report in a browser of this machine, with buttons that accept; never where CI is set");
+    app.add_flag("--open", options.opens, "With --review: open it in the desktop's browser");
     app.add_flag("--bless", options.blesses,
                  "Accept the cases' frames as they are drawn now; never where CI is set");
     app.add_option("--because", options.bless.because, "With --bless: why they are right")->type_name("TEXT");
     app.add_flag("--all", options.all, "With --bless: every case");
-    app.add_flag("--also", options.bless.adds, "With --bless: beside what other renderers drew, which stays");
+    app.add_flag("--also", options.bless.adds,
+                 "With --bless or --review: beside what other renderers drew, which stays");
     app.add_flag("--new", options.bless.makes, "With --bless: make the case, which is not there yet");
     app.add_option("--setting", options.bless.settings,
                    "With --new: a setting of the case; KEY may be OUTER.INNER; may be repeated")
@@ -162,8 +177,7 @@ void addOptions(CLI::App& app, Options& options) {
         ->expected(1);
     app.set_version_flag("--version", "frame_check " GLLADDER_VERSION " (GL Ladder)");
     app.footer("Ends with 0 where every frame is the same or within its rule, 1 where one is not, 2 where "
-               "one cannot be "
-               "compared, and on wrong usage. man frame_check says how to write a suite.");
+               "one cannot be compared, and on wrong usage. man frame_check says how to write a suite.");
 }
 
 int fail(const std::string& what) {
@@ -186,6 +200,10 @@ int run(int argc, char** argv) {
         return fail(std::string(error.what()) + ", see --help");
     }
     try {
+        if (options.reviews && (options.blesses || options.suite.empty()))
+            throw UsageError(
+                "--review needs --suite DIR, and blesses what you accept there; leave --bless out");
+        if (options.opens && !options.reviews) throw UsageError("--open belongs to --review");
         if (options.suite.empty() && !options.blesses && options.words.size() != 2)
             throw UsageError("give two pictures, NEW and REFERENCE, or --suite DIR; see --help");
         return options.blesses ? blessSuite(options) : checkAndSay(options);

@@ -206,13 +206,15 @@ std::string scriptText(const Json& json) {
 
 } // namespace
 
-void writeReport(const fs::path& file, const std::string& title, const std::vector<SuiteResult>& suites) {
+void writeReport(const fs::path& file, const std::string& title, const std::vector<SuiteResult>& suites,
+                 bool for_review) {
     if (file.has_parent_path()) fs::create_directories(file.parent_path());
     const std::string page = report_page;
     const auto pictures_at = page.find("@PICTURES@");
     const auto data_at = page.find("@DATA@");
     const Counts counts = countsOf(suites);
     Json data{{"title", title},
+              {"for_review", for_review},
               {"drawn_by", ""},
               {"knows_targets", false},
               {"counts",

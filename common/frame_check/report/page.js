@@ -79,11 +79,14 @@ function listButton(entry) {
   return button;
 }
 
-let shownOrder = []; // the ids of the cases in the list, from above
+let shownOrder = [];  // the ids of the cases in the list, from above
+let shownGroups = []; // as groups() says
+const groupOf = (entry) => shownGroups.find((group) => group.cases.includes(entry));
 
 function fillList() {
   const list = find("#list");
-  for (const group of groups()) {
+  shownGroups = groups();
+  for (const group of shownGroups) {
     const [title, cause] = groupTitle(group);
     const summary = element("summary", {}, element("b", { className: group.outcome, textContent: title }));
     if (cause) summary.append(element("small", { textContent: cause }));
@@ -130,6 +133,7 @@ async function open(id) {
   find("#stage").hidden = !frame && !reference;
   find("#tools").hidden = find("#under").hidden = find("#stage").hidden;
   showFacts(entry);
+  showAccept();
   showExposure();
   if (frame || reference)
     viewer.show(frame, reference, isComparable ? differenceCanvas(frame, reference) : null, flip);
@@ -287,7 +291,7 @@ function step(by) {
 
 function onKey(event) {
   if (event.ctrlKey || event.metaKey || event.altKey || find("#help").open) return;
-  if (event.target.matches("input[type=search]")) {
+  if (event.target.matches("input[type=search], input[type=text]")) {
     if (event.key === "Escape") event.target.blur();
     return;
   }
@@ -300,6 +304,7 @@ function onKey(event) {
   else if (event.key === "k") step(-1);
   else if (event.key === "/") find("#filter").focus();
   else if (event.key === "?") find("#help").showModal();
+  else if (event.key === "a" && current && !find("#accept").hidden) find("#because").focus();
   else if (!current || find("#stage").hidden) return;
   else if (event.key === "+" || event.key === "=" || event.key === "-") {
     // About the marked pixel, where there is one.
@@ -324,6 +329,8 @@ function begin() {
       element("b", { textContent: data.counts[outcome] }), words[outcome]));
   find("#drawn_by").textContent = data.drawn_by;
   fillList();
+  for (const row of document.querySelectorAll(".review")) row.hidden = !data.for_review;
+  if (data.for_review) beginReview();
   document.addEventListener("keydown", onKey);
   find("#filter").addEventListener("input", applyFilter);
   find("#exposure input").addEventListener("input", changeExposure);
