@@ -2,6 +2,7 @@
 // itself.
 #include "frame_check/bless.hpp"
 #include "frame_check/check.hpp"
+#include "frame_check/mutate.hpp"
 #include "frame_check/report.hpp"
 #include "frame_check/review.hpp"
 #include "frame_check/say.hpp"
@@ -32,6 +33,9 @@ struct Options {
     bool blesses = false;
     bool all = false;
     BlessOptions bless;
+    std::string shaders; // to put faults into
+    std::string excused;
+    MutationOptions mutation;
 };
 
 // Wrong usage, as opposed to what cannot be compared; both end with 2.
@@ -131,6 +135,108 @@ int blessSuite(Options options) {
     return bless(std::move(suites.front()), options.bless) ? 0 : 1;
 }
 
+// The suites with the chosen cases only, which have to be there and to pass with a copy of the shaders.
+std::vector<Suite> suitesToMutate(const Options& options) {
+    std::vector<Suite> suites = readSuites(options.suite, changesIn(options));
+    for (Suite& suite : suites)
+        std::erase_if(suite.cases, [&](const Case& one) { return !isChosen(suite, one, options.words); });
+    std::erase_if(suites, [](const Suite& suite) { return suite.cases.empty(); });
+    if (suites.empty()) throw std::runtime_error(options.suite + ": no case there is called so");
+    const ShaderCopy copy(options.shaders);
+    for (const Suite& suite : suites) {
+        if (!isToldOfShaders(suite))
+            throw UsageError(
+                suite.settings.string() +
+                ": tells its program nothing of {shaders}, a folder; write that into \"command\", "
+                "\"batch\" or \"environment\", as man frame_check says");
+        const SuiteResult checked =
+            check(options.mutation.within(suite, copy.path()), {.looks_at_targets = false});
+        for (const CaseResult& one : checked.cases) {
+            if (one.outcome == Outcome::same || one.outcome == Outcome::tolerated) continue;
+            std::fputs(line(one).c_str(), stdout);
+            throw std::runtime_error(one.fullName() +
+                                     ": fails without any fault; bring the suite to pass before");
+        }
+    }
+    return suites;
+}
+
+void sayOutcome(const MutationOutcome& outcome, bool quiet) {
+    constexpr const char* words[] = {"seen", "MISSED", "excused", "not drawn"};
+    if (quiet && outcome.verdict != Verdict::survived) return;
+    const Mutant& mutant = outcome.mutant;
+    std::printf("%-9s %s:%d %s: %s -> %s: %s\n", words[static_cast<std::size_t>(outcome.verdict)],
+                mutant.file.c_str(), mutant.line, mutant.operation.c_str(), mutant.before.c_str(),
+                mutant.after.c_str(), outcome.by.c_str());
+    std::fflush(stdout);
+}
+
+int mutateSuite(Options options) {
+    if (options.suite.empty())
+        throw UsageError("--mutate needs --suite DIR, whose frames should show the faults");
+    if (!std::filesystem::is_directory(options.shaders))
+        throw UsageError("--mutate " + options.shaders + ": there is no such folder of shaders");
+    MutationOptions& mutation = options.mutation;
+    mutation.shaders = options.shaders;
+    mutation.within = [](const Suite& suite, const std::filesystem::path& folder) {
+        Suite there = suite;
+        there.variables["shaders"] = (folder / "shaders").string();
+        return there;
+    };
+    mutation.on_outcome = [&](const MutationOutcome& outcome) { sayOutcome(outcome, options.quiet); };
+    if (!options.excused.empty()) mutation.excuses = readExcuses(options.excused);
+    if (chooseMutants(mutation).mutants.empty())
+        throw std::runtime_error(options.shaders +
+                                 ": no fault can be put into a file there that is to be tried; "
+                                 "GLSL is looked for in .glsl, .vert, .frag, .vs, .fs and the like");
+    const MutationResult result = mutate(suitesToMutate(options), mutation);
+    for (const std::string& shader : result.unused)
+        std::printf("%s: no case is drawn with it\n", shader.c_str());
+    for (const std::string& shader : result.silent)
+        std::printf("%s: warning: a frame is drawn even where it does not compile, so that such faults count "
+                    "as seen\n",
+                    shader.c_str());
+    for (const std::string& excuse : result.stale)
+        std::printf("%s: stale: %s\n", options.excused.c_str(), excuse.c_str());
+    const std::size_t missed = result.count(Verdict::survived);
+    const std::size_t seen = result.count(Verdict::killed);
+    std::printf("%zu of %zu faults tried, seed %llu: %zu seen, %zu missed, %zu excused, %zu not drawn\n",
+                result.outcomes.size(), result.possible, static_cast<unsigned long long>(mutation.seed), seen,
+                missed, result.count(Verdict::excused), result.count(Verdict::invalid));
+    if (seen + missed == 0)
+        throw std::runtime_error("no fault came to a frame, so that nothing is known; try more");
+    return missed > 0 || !result.stale.empty() ? 1 : 0;
+}
+
+void addMutationOptions(CLI::App& app, Options& options) {
+    const std::string group = "Faults in shaders";
+    app.add_option("--mutate", options.shaders,
+                   "Put small faults into a copy of this folder's shaders, one after the other, and say "
+                   "which ones no "
+                   "case of the suite shows")
+        ->type_name("FOLDER")
+        ->group(group);
+    app.add_option("--sample", options.mutation.sample,
+                   "So many faults in all, of those that are not excused")
+        ->type_name("N")
+        ->group(group);
+    app.add_option("--share", options.mutation.share, "Or this share of each file's, at least three (0.05)")
+        ->check(CLI::Range(0.0, 1.0))
+        ->type_name("X")
+        ->group(group);
+    app.add_option("--seed", options.mutation.seed, "Which ones (1)")->type_name("N")->group(group);
+    app.add_option("--only", options.mutation.only, "Only in files whose name holds this")
+        ->type_name("TEXT")
+        ->group(group);
+    app.add_option("--jobs", options.mutation.jobs, "So many at once (1)")
+        ->check(CLI::Range(1, 256))
+        ->type_name("N")
+        ->group(group);
+    app.add_option("--excused", options.excused, "Faults that no frame can show, with their reasons")
+        ->type_name("FILE.json")
+        ->group(group);
+}
+
 void addOptions(CLI::App& app, Options& options) {
     app.add_option("word", options.words, "NEW REFERENCE: two pictures; with --suite: cases, as patterns");
     app.add_option("--suite", options.suite, "Check the cases of this folder, or of those in it")
@@ -175,6 +281,7 @@ void addOptions(CLI::App& app, Options& options) {
         ->type_name("KEY=VALUE")
         ->take_all()
         ->expected(1);
+    addMutationOptions(app, options);
     app.set_version_flag("--version", "frame_check " GLLADDER_VERSION " (GL Ladder)");
     app.footer("Ends with 0 where every frame is the same or within its rule, 1 where one is not, 2 where "
                "one cannot be compared, and on wrong usage. man frame_check says how to write a suite.");
@@ -203,6 +310,11 @@ int run(int argc, char** argv) {
         if (options.reviews && (options.blesses || options.suite.empty()))
             throw UsageError(
                 "--review needs --suite DIR, and blesses what you accept there; leave --bless out");
+        if (!options.shaders.empty()) {
+            if (options.reviews || options.blesses)
+                throw UsageError("--mutate writes nothing; leave the rest out");
+            return mutateSuite(options);
+        }
         if (options.opens && !options.reviews) throw UsageError("--open belongs to --review");
         if (options.suite.empty() && !options.blesses && options.words.size() != 2)
             throw UsageError("give two pictures, NEW and REFERENCE, or --suite DIR; see --help");

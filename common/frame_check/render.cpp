@@ -113,6 +113,13 @@ Values valuesOf(const Suite& suite, const Case& one, const std::string& out) {
     return values;
 }
 
+std::map<std::string, std::optional<std::string>> environmentOf(const Suite& suite) {
+    auto environment = suite.environment;
+    for (auto& [name, value] : environment)
+        if (value) *value = filled(*value, valuesOf(suite));
+    return environment;
+}
+
 Command commandOf(const Suite& suite, const std::vector<std::string>& words) {
     if (words.empty())
         throw std::runtime_error(
@@ -120,7 +127,7 @@ Command commandOf(const Suite& suite, const std::vector<std::string>& words) {
             ": nothing says how a frame is drawn; give suite.json a \"command\" or a \"batch\"");
     return {.program = programNamed(words.front(), suite),
             .arguments = {words.begin() + 1, words.end()},
-            .environment = suite.environment,
+            .environment = environmentOf(suite),
             .folder = workFolder(suite)};
 }
 
@@ -151,7 +158,7 @@ std::string howItEnded(const fs::path& program, const ProcessResult& end, std::c
 // How a suite's environment stands before a command in a shell.
 std::string environmentLine(const Suite& suite) {
     std::string line;
-    for (const auto& [name, value] : suite.environment)
+    for (const auto& [name, value] : environmentOf(suite))
         line += value ? name + "=" + shellWord(*value) + " " : "";
     return line;
 }

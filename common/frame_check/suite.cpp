@@ -101,6 +101,9 @@ void readKey(Suite& suite, const std::string& key, const Json& value) {
     } else if (key == "environment") {
         for (const auto& [name, text] : value.items())
             suite.environment[name] = text.is_null() ? std::optional<std::string>() : textIn(text, name);
+    } else if (key == "shaders") {
+        suite.variables[key] =
+            (suite.settings.parent_path() / textIn(value, key)).lexically_normal().string();
     } else if (key == "variables") {
         for (const auto& [name, text] : value.items())
             suite.variables[name] = textIn(text, name);
@@ -123,8 +126,8 @@ void readKey(Suite& suite, const std::string& key, const Json& value) {
     } else {
         throw std::runtime_error("\"" + key +
                                  "\" with this value is no key of a suite; there is program, command, batch, "
-                                 "targets, renderer, environment, variables, defaults, files, format, rule, "
-                                 "bless, timeout_s");
+                                 "targets, renderer, environment, shaders, variables, defaults, files, "
+                                 "format, rule, bless, timeout_s");
     }
 }
 

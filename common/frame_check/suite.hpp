@@ -55,7 +55,8 @@ struct Suite {
     std::string targets_key = {};                  // "targets": the key of a line of "batch" for their folder
     std::vector<std::string> renderer = {}; // "renderer": prints what draws: a line, or JSON with "renderer"
     std::map<std::string, std::optional<std::string>> environment = {}; // "environment": null unsets
-    std::map<std::string, std::string> variables = {};                  // "variables"
+    std::map<std::string, std::string> variables =
+        {}; // "variables"; and "shaders": a path from suite.json's folder
     nlohmann::ordered_json defaults = nlohmann::ordered_json::object(); // "defaults": settings of every case
     std::vector<std::string> files = {}; // "files": settings that name files, from the case's folder
     std::string format = "png";          // "format": of new references, png, exr or hdr

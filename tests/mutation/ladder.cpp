@@ -1,12 +1,13 @@
-// Finding the shaders of rungs, and copying what they are drawn with.
-#include "mutation/rendering.hpp"
+// Finding the shaders of rungs, and telling rungs of a copy.
+#include "mutation/ladder.hpp"
 
-#include <fstream>
-#include <sstream>
+#include <algorithm>
 #include <stdexcept>
 
 namespace gll::test {
 namespace fs = std::filesystem;
+using frame_check::MutationOptions;
+using frame_check::Suite;
 namespace {
 
 // What stands between double quotes in a text, where it names a shader.
@@ -23,14 +24,6 @@ std::set<std::string> shadersNamedIn(const std::string& text) {
 
 } // namespace
 
-std::string readText(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw std::runtime_error(file.string() + ": cannot be read");
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-}
-
 std::set<std::string> shadersOf(const fs::path& root, const std::string& rung) {
     std::vector<fs::path> sources;
     std::set<fs::path> seen;
@@ -45,7 +38,7 @@ std::set<std::string> shadersOf(const fs::path& root, const std::string& rung) {
         for (const auto& entry : fs::directory_iterator(own))
             shaders.insert(rung + "/" + entry.path().filename().string());
     for (std::size_t i = 0; i < sources.size(); ++i) {
-        const std::string text = readText(sources[i]);
+        const std::string text = contents(sources[i]);
         shaders.merge(shadersNamedIn(text));
         for (auto at = text.find("#include \""); at != std::string::npos;
              at = text.find("#include \"", at + 1)) {
@@ -60,25 +53,47 @@ std::set<std::string> shadersOf(const fs::path& root, const std::string& rung) {
         std::set<std::string> included;
         for (const std::string& name : shaders)
             if (fs::exists(root / "shaders" / name))
-                included.merge(shadersNamedIn(readText(root / "shaders" / name)));
+                included.merge(shadersNamedIn(contents(root / "shaders" / name)));
         shaders.merge(included);
         grows = shaders.size() > before;
     }
     return shaders;
 }
 
-Copy::Copy(const fs::path& root, const std::vector<Rung>& rungs) {
-    fs::create_directories(folder_ / "bin");
-    for (const Rung& rung : rungs)
-        fs::copy_file(rung.suite.program, folder_ / "bin" / rung.name);
-    fs::copy(root / "shaders", folder_ / "shaders", fs::copy_options::recursive);
-    fs::create_directory_symlink(fs::canonical(root / "assets"), folder_ / "assets");
+Ladder::Ladder(const fs::path& root, const fs::path& programs) : root_(root) {
+    for (const auto& entry : fs::directory_iterator(root / "tests/golden")) {
+        const std::string name = entry.path().filename();
+        if (!entry.is_directory() || !fs::exists(programs / name)) continue;
+        // One thread for a frame's pixels: the jobs are what goes on at once.
+        suites_.push_back(frame_check::readSuites(entry.path(), {.program = (programs / name).string(),
+                                                                 .environment = {{"LP_NUM_THREADS", "0"}}})
+                              .at(0));
+        shaders_[name] = shadersOf(root, name);
+    }
+    if (suites_.empty()) throw std::runtime_error(programs.string() + ": holds no rung with goldens");
+    std::sort(suites_.begin(), suites_.end(), [](const Suite& a, const Suite& b) { return a.name < b.name; });
 }
 
-frame_check::Suite Copy::suite(const Rung& rung) const {
-    frame_check::Suite suite = rung.suite;
-    suite.program = folder_ / "bin" / rung.name;
-    return suite;
+void Ladder::complete(MutationOptions& options) const {
+    options.shaders = root_ / "shaders";
+    options.excuses = frame_check::readExcuses(root_ / "tests/mutation/excused.json");
+    options.noticed = "no uniform named";
+    options.within = [this](const Suite& suite, const fs::path& folder) { return within(suite, folder); };
+    options.draws_with = [this](const Suite& suite, const std::string& shader) {
+        return shaders_.at(suite.name).contains(shader);
+    };
+}
+
+Suite Ladder::within(const Suite& suite, const fs::path& folder) const {
+    Suite there = suite;
+    there.program = folder / "bin" / suite.name;
+    if (!fs::exists(there.program)) {
+        fs::create_directories(folder / "bin");
+        fs::copy_file(suite.program, there.program);
+    }
+    if (!fs::exists(folder / "assets"))
+        fs::create_directory_symlink(fs::canonical(root_ / "assets"), folder / "assets");
+    return there;
 }
 
 } // namespace gll::test

@@ -1,16 +1,17 @@
 // Finding the places for faults: a scanner for GLSL's tokens, and one rule for each kind of fault.
-#include "mutation/mutants.hpp"
+#include "frame_check/mutants.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <map>
 #include <set>
 #include <stdexcept>
 #include <string_view>
 
-namespace gll::test {
+namespace gll::frame_check {
 namespace {
 
 struct Token {
@@ -20,7 +21,7 @@ struct Token {
     std::string text = {};
 };
 
-bool isNameCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool isWordCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
 // Without comments and preprocessor lines.
 std::vector<Token> tokensOf(const std::string& text) {
@@ -46,12 +47,12 @@ std::vector<Token> tokensOf(const std::string& text) {
             if (is_number) {
                 token.kind = Token::Kind::number;
                 while (length < rest.size() &&
-                       (isNameCharacter(rest[length]) || rest[length] == '.' ||
+                       (isWordCharacter(rest[length]) || rest[length] == '.' ||
                         ((rest[length] == '-' || rest[length] == '+') && rest[length - 1] == 'e')))
                     ++length;
-            } else if (isNameCharacter(text[i])) {
+            } else if (isWordCharacter(text[i])) {
                 token.kind = Token::Kind::name;
-                while (length < rest.size() && isNameCharacter(rest[length]))
+                while (length < rest.size() && isWordCharacter(rest[length]))
                     ++length;
             } else if (std::find(pairs.begin(), pairs.end(), rest.substr(0, 2)) != pairs.end()) {
                 length = 2;
@@ -65,11 +66,11 @@ std::vector<Token> tokensOf(const std::string& text) {
     return tokens;
 }
 
-const std::map<std::string, std::string> arithmetic = {{"+", "-"},   {"-", "+"},   {"*", "/"},  {"/", "*"},
-                                                       {"+=", "-="}, {"-=", "+="}, {"*=", "/="}};
-const std::map<std::string, std::string> comparison = {{"<", ">="}, {"<=", ">"},  {">", "<="},
-                                                       {">=", "<"}, {"==", "!="}, {"!=", "=="}};
-const std::map<std::string, std::string> logic = {{"&&", "||"}, {"||", "&&"}};
+const std::map<std::string, std::string> other_arithmetic = {
+    {"+", "-"}, {"-", "+"}, {"*", "/"}, {"/", "*"}, {"+=", "-="}, {"-=", "+="}, {"*=", "/="}};
+const std::map<std::string, std::string> other_comparison = {{"<", ">="}, {"<=", ">"},  {">", "<="},
+                                                             {">=", "<"}, {"==", "!="}, {"!=", "=="}};
+const std::map<std::string, std::string> other_logic = {{"&&", "||"}, {"||", "&&"}};
 const std::map<std::string, std::string> functions = {
     {"min", "max"}, {"max", "min"}, {"sin", "cos"}, {"cos", "sin"}, {"floor", "ceil"}};
 const std::set<std::string> keywords = {"if",   "for", "while", "return", "layout",
@@ -125,6 +126,7 @@ class Finder {
 
     // Tokens first to last, both included, become `with`.
     void add(const std::string& operation, std::size_t first, std::size_t last, const std::string& with) {
+        if (last >= tokens_.size()) return; // an operator or a bracket without what belongs to it
         const std::size_t begin = tokens_[first].at;
         const std::size_t end = endOf(last);
         Mutant mutant{.file = file_, .operation = operation};
@@ -154,9 +156,9 @@ class Finder {
     void constant(std::size_t i) {
         const std::string& text = tokens_[i].text;
         if (text.find_first_of("xuXU") != std::string::npos || is(i - 1) == "[") return;
-        const double value = std::stod(text);
+        const double value = std::strtod(text.c_str(), nullptr);
         if (text.find_first_of(".e") == std::string::npos)
-            add("constant", i, i, std::to_string(static_cast<int>(value) + 1));
+            add("constant", i, i, std::to_string(static_cast<std::int64_t>(std::min(value, 1e15)) + 1));
         else if (value == 0)
             add("constant", i, i, "0.1");
         else if (value >= 1e-3 && value <= 1e4)
@@ -174,8 +176,8 @@ class Finder {
         const std::string& text = tokens_[i].text;
         const bool is_binary = isBinary(i);
         for (const auto& [operation, swapped] :
-             {std::pair("arithmetic", &arithmetic), std::pair("comparison", &comparison),
-              std::pair("logic", &logic)})
+             {std::pair("arithmetic", &other_arithmetic), std::pair("comparison", &other_comparison),
+              std::pair("logic", &other_logic)})
             if (const auto found = swapped->find(text); found != swapped->end() && is_binary)
                 add(operation, i, i, found->second);
         if (text == "-" && !is_binary) add("sign", i, i, "");
@@ -193,7 +195,7 @@ class Finder {
         for (std::size_t j = i + 1; j < tokens_.size(); ++j) {
             const std::string& text = tokens_[j].text;
             if (partner_[j] < j || text == "," || text == ";" || text == "?" || text == ":") break;
-            if (comparison.contains(text) || logic.contains(text)) break;
+            if (other_comparison.contains(text) || other_logic.contains(text)) break;
             if (text.size() == 1 && operators.find(text) != std::string_view::npos && isBinary(j)) break;
             if (partner_[j] < tokens_.size()) j = partner_[j];
             last = j;
@@ -208,7 +210,7 @@ class Finder {
             const std::string& text = tokens_[first - 1].text;
             if (text == "(" || text == "," || text == "=" || text == "return" || text == ":" || text == "?" ||
                 text == ";" || text == "{" || text == "[" ||
-                (text.size() == 2 && text[1] == '=' && arithmetic.contains(text)))
+                (text.size() == 2 && text[1] == '=' && other_arithmetic.contains(text)))
                 break;
             --first;
             if (partner_[first] < first) first = partner_[first];
@@ -248,7 +250,7 @@ class Finder {
         const std::string& text = tokens_[i].text;
         if (i > 0 && is(i - 1) == ".") return channels(i);
         if (is(i + 1) != "(") return;
-        if (text == "if") {
+        if (text == "if" && partner_[i + 1] < tokens_.size()) {
             const std::string condition = between(i + 1, partner_[i + 1]);
             add("never", i + 1, partner_[i + 1], "(false)");
             add("negated", i + 1, partner_[i + 1], "(!" + condition + ")");
@@ -319,4 +321,4 @@ std::vector<Mutant> mutantsOf(const std::string& file, const std::string& text) 
     return Finder(file, text).run();
 }
 
-} // namespace gll::test
+} // namespace gll::frame_check

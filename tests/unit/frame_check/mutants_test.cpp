@@ -1,11 +1,14 @@
 // Which faults a line of GLSL can have, and what is left alone.
-#include "mutation/mutants.hpp"
+#include "frame_check/mutants.hpp"
 
 #include <algorithm>
 #include <gtest/gtest.h>
 
 namespace gll::test {
 namespace {
+
+using frame_check::Mutant;
+using frame_check::mutantsOf;
 
 // "operation: what the line becomes", of every fault.
 std::vector<std::string> faultsOf(const std::string& text) {
@@ -54,6 +57,24 @@ TEST(Mutants, sampleBesideThePlace) {
 
 TEST(Mutants, leaveTheInterfaceAndThePreprocessorAlone) {
     expectFaults("#if A + 1 > 2\nuniform vec2 size[2 + 1]; // a - b\n/* a * b */ in vec2 uv;\n#endif\n", {});
+}
+
+// Others' shaders may hold anything, and a fault before the first bracket or beyond the last must not be one
+// here.
+TEST(Mutants, takeWhateverAFileHolds) {
+    const std::vector<std::string> pieces = {"if", "(", ")", "{",   "}",     "[",   "]",  "?",
+                                             ":",  "=", "-", "*",   "1e999", "0.5", "a",  ".",
+                                             "x",  ";", ",", "mix", "//",    "/*",  "\n", "99999999999"};
+    std::uint64_t state = 1;
+    for (int round = 0; round < 3000; ++round) {
+        std::string text;
+        for (int i = 0; i < 12; ++i) {
+            state = state * 6364136223846793005U + 1442695040888963407U;
+            text += pieces[(state >> 33) % pieces.size()] + ((state >> 20) % 2 == 0 ? " " : "");
+        }
+        for (const Mutant& mutant : mutantsOf("any.frag", text))
+            EXPECT_NE(mutant.text, text);
+    }
 }
 
 TEST(Mutants, sayTheLineAndHoldTheWholeText) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace gll::test {
+namespace gll::frame_check {
 
 struct Mutant {
     std::string file;        // from the shaders' folder: "lib/tone_map.glsl"
@@ -22,4 +22,4 @@ struct Mutant {
 // 10000, which only keep a division finite or scatter bits. Some faults change nothing; some do not compile.
 std::vector<Mutant> mutantsOf(const std::string& file, const std::string& text);
 
-} // namespace gll::test
+} // namespace gll::frame_check
