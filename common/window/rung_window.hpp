@@ -86,8 +86,9 @@ class RungWindow {
     void saveWindow(glm::ivec2 window);
     void record(const Timeline::Loop& range);
     void showWarnings();
-    void show(const std::string& message); // as long as it takes to read
-    void say(const std::string& message);  // to the terminal, too
+    void show(const std::string& message);      // as long as it takes to read
+    void say(const std::string& message);       // to the terminal, too
+    static void print(const std::string& text); // for who started the program in a terminal
     WindowState windowState() const;
     void adopt(const WindowState& state);
     void leave();

@@ -40,11 +40,11 @@ passed() { echo "ok: $*"; }
 
 # until_true COMMAND...: tries until it succeeds; fails where that takes too long or the window's program ends.
 until_true() {
-    local end=$((SECONDS + patience_s))
+    local end=$((SECONDS + patience_s)) tries=0
     until "$@"; do
         if [ -n "$window_process" ] && ! kill -0 "$window_process" 2>/dev/null; then return 1; fi
         if [ $SECONDS -ge $end ]; then return 1; fi
-        sleep 0.05
+        if [ $((++tries)) -lt 10 ]; then sleep 0.05; else sleep 0.4; fi # looking at a window costs, too
     done
 }
 
@@ -98,6 +98,14 @@ is_unmapped() { xwininfo -id "$window" | grep -q IsUnMapped; }
 ended() { ! kill -0 "$window_process" 2>/dev/null; }
 is_mapped() { xwininfo -id "$window" | grep -q IsViewable; }
 focus() { xdotool windowfocus --sync "$window"; }
+# open_paused OPTION...: a window of the program, which plays nothing until it is told.
+open_paused() {
+    echo '{"is_playing": false}' >paused.json
+    "$program" --window-state paused.json "$@" >log.txt 2>errors.txt &
+    window_process=$!
+    until_true find_window || fail "no window opens"
+    until_true focus || fail "the window takes no focus"
+}
 
 # Without -noreset it forgets the display's scale with the program that set it.
 Xvfb -displayfd 3 -screen 0 1280x1024x24 -nolisten tcp -noreset 3>display.txt 2>xvfb.txt &

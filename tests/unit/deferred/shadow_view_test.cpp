@@ -20,8 +20,8 @@ double largestMove(const char* fit) {
     const ShadowOptions options(settings);
     settings.set(std::string("shadow_fit=") + fit);
     const float elevation_rad = 0.7F;
-    const Sun sun = {.to_sun = {0.3F * std::cos(elevation_rad), std::sin(elevation_rad),
-                                std::sqrt(0.91F) * std::cos(elevation_rad)}};
+    const shadow_map::Sun sun = {.to_sun = {0.3F * std::cos(elevation_rad), std::sin(elevation_rad),
+                                            std::sqrt(0.91F) * std::cos(elevation_rad)}};
     const auto view_at = [&](int frame) {
         const float turn_rad = 0.0017453F * static_cast<float>(frame);
         return sunViews(
