@@ -24,6 +24,7 @@ libgl1                  OpenGL itself, for the window
 libegl1                 EGL itself
 libgl1-mesa-dri         Mesa's drivers, llvmpipe among them
 libopenimageio-dev      OpenImageIO: reads and writes images
+libpng-dev              libpng: reads and writes PNGs
 zlib1g-dev              zlib: whether the rows of an EXR are whole
 libtinyobjloader-dev    tinyobjloader: reads OBJ
 nlohmann-json3-dev      JSON

@@ -1,12 +1,9 @@
-// Reads images and writes them. OpenImageIO decodes PNG, JPEG and EXR and never sees a file that has not
-// passed through here: it accepts headers of any size, acts on metadata, and would open any of its thirty
-// formats.
+// Reads images and writes them. OpenImageIO decodes JPEG and EXR and never sees a file that has not passed
+// through here: it accepts headers of any size, acts on metadata, and would open any of its thirty formats.
 #include "io/image.hpp"
 
 #include "io/image_read.hpp"
-
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
+#include "io/openimageio.hpp"
 
 #include <algorithm>
 #include <array>
@@ -30,9 +27,6 @@ using namespace std::string_view_literals;
 
 enum class Format { png, jpeg, hdr, exr, bmp, tga };
 
-// OpenImageIO's names, in the order of Format, of those that it reads or writes here.
-constexpr std::array oiio_names = {"png", "jpeg", "hdr", "openexr"};
-
 Format formatOf(std::string_view bytes, const std::string& name) {
     if (bytes.empty()) throw fileError(name, "is empty, export it again");
     if (bytes.starts_with("\x89PNG\r\n\x1a\n"sv)) return Format::png;
@@ -48,87 +42,40 @@ Format formatOf(std::string_view bytes, const std::string& name) {
                     "is no PNG, JPEG, Radiance HDR, EXR, BMP or (named .tga) TGA image, convert it to one");
 }
 
-// The libraries' complaints, some of several lines, as one line in brackets; nothing when there is none.
-std::string inBrackets(const std::string& complaint) {
-    return complaint.empty() ? "" : " (" + complaint.substr(0, complaint.find('\n')) + ")";
-}
-
-// An open file in memory. The bytes must outlive it.
-class Input {
-  public:
-    Input(Format format, std::string& bytes, const std::string& name)
-        : memory_(bytes.data(), bytes.size()), name_(name),
-          input_(OIIO::ImageInput::create(oiio_names[static_cast<std::size_t>(format)])) {
-        if (!input_ || !input_->set_ioproxy(&memory_))
-            throw fileError(name, "this OpenImageIO lacks the reader for it, install one that has it");
-        OIIO::ImageSpec config;
-        config.attribute("oiio:UnassociatedAlpha", 1); // alpha stays beside the color, as the file has it
-        OIIO::ImageSpec first;
-        if (!input_->open(name, first, config))
-            throw fileError(name,
-                            "does not decode, fetch or export it again" + inBrackets(input_->geterror()));
-    }
-
-    OIIO::ImageSpec spec(int part) { return input_->spec(part, 0); }
-
-    // Some of the channels of all pixels of a part, at its full resolution.
-    template <typename Sample>
-    std::vector<Sample> read(int part, int first_channel, int end_channel) {
-        const OIIO::ImageSpec size = spec(part);
-        std::vector<Sample> samples(static_cast<std::size_t>(size.width) *
-                                    static_cast<std::size_t>(size.height) *
-                                    static_cast<std::size_t>(end_channel - first_channel));
-        constexpr OIIO::TypeDesc sample_type(OIIO::BaseTypeFromC<Sample>::value);
-        const bool whole =
-            input_->read_image(part, 0, first_channel, end_channel, sample_type, samples.data());
-        const std::string complaint = input_->geterror();
-        if (!whole || !complaint.empty())
-            throw fileError(name_, "does not decode whole, fetch or export it again" + inBrackets(complaint));
-        return samples;
-    }
-
-  private:
-    OIIO::Filesystem::IOMemReader memory_;
-    const std::string& name_;
-    std::unique_ptr<OIIO::ImageInput> input_;
-};
-
-Image decodePngOrJpeg(Format format, CleanFile file, const std::string& name) {
-    Input input(format, file.bytes, name);
-    const OIIO::ImageSpec spec = input.spec(0);
-    if (spec.nchannels < 1 || spec.nchannels > 4)
-        throw fileError(name, "has " + std::to_string(spec.nchannels) + " channels, 1 to 4 are read");
-    const bool eight_bits = spec.format == OIIO::TypeDesc::UINT8;
-    checkSize(spec.width, spec.height,
-              static_cast<std::size_t>(spec.nchannels) * (eight_bits ? sizeof(std::uint8_t) : sizeof(float)),
-              name);
+Image decodeJpeg(CleanFile file, const std::string& name) {
+    const std::unique_ptr<EncodedImage> input = openImageIo().open("jpeg", file.bytes, name);
+    const EncodedImage::Part part = input->part(0);
+    const auto channels = static_cast<int>(part.channels.size());
+    if (!part.has_bytes || (channels != 1 && channels != 3))
+        throw fileError(name, "its header is read in two ways, save it as a PNG");
+    checkSize(part.width, part.height, part.channels.size(), name);
     Image image;
-    image.width = spec.width;
-    image.height = spec.height;
-    image.channels = spec.nchannels;
+    image.width = part.width;
+    image.height = part.height;
+    image.channels = channels;
     image.color_space = ColorSpace::srgb;
     image.warnings = std::move(file.warnings);
-    if (eight_bits)
-        image.pixels = input.read<std::uint8_t>(0, 0, spec.nchannels);
-    else
-        image.pixels = input.read<float>(0, 0, spec.nchannels);
+    image.pixels = input->bytes(0, 0, channels);
     return image;
 }
 
 // The picture is the display window. Where the file has no pixels for it, they are 0, alpha too.
 Image decodeExr(CleanExr exr, const std::string& name) {
-    Input input(Format::exr, exr.bytes, name);
-    const OIIO::ImageSpec spec = input.spec(exr.part);
+    const std::unique_ptr<EncodedImage> input = openImageIo().open("openexr", exr.bytes, name);
+    const EncodedImage::Part part = input->part(exr.part);
     std::vector<int> channels; // which of the file's, in the picture's order
-    for (const std::string& channel : exr.channels)
-        channels.push_back(spec.channelindex(channel));
+    for (const std::string& channel : exr.channels) {
+        const auto place = std::find(part.channels.begin(), part.channels.end(), channel);
+        channels.push_back(place == part.channels.end() ? -1
+                                                        : static_cast<int>(place - part.channels.begin()));
+    }
     const auto [first, last] = std::minmax_element(channels.begin(), channels.end());
-    if (spec.deep || spec.width != exr.data.width() || spec.height != exr.data.height() || *first < 0)
+    if (part.is_deep || part.width != exr.data.width() || part.height != exr.data.height() || *first < 0)
         throw fileError(name, "its header is read in two ways, export it again");
     const auto stored_channels = static_cast<std::size_t>(*last - *first + 1);
-    checkSize(spec.width, spec.height, stored_channels * sizeof(float), name);
+    checkSize(part.width, part.height, stored_channels * sizeof(float), name);
     checkSize(exr.display.width(), exr.display.height(), channels.size() * sizeof(float), name);
-    const std::vector<float> stored = input.read<float>(exr.part, *first, *last + 1);
+    const std::vector<float> stored = input->floats(exr.part, *first, *last + 1);
 
     Image image;
     image.width = exr.display.width();
@@ -169,12 +116,11 @@ Image decodeExr(CleanExr exr, const std::string& name) {
 }
 
 Image decode(std::string_view bytes, const std::string& name) {
-    const Format format = formatOf(bytes, name);
-    switch (format) {
+    switch (formatOf(bytes, name)) {
     case Format::png:
-        return decodePngOrJpeg(format, cleanPng(bytes, name), name);
+        return decodePng(cleanPng(bytes, name), name);
     case Format::jpeg:
-        return decodePngOrJpeg(format, cleanJpeg(bytes, name), name);
+        return decodeJpeg(cleanJpeg(bytes, name), name);
     case Format::exr:
         return decodeExr(cleanExr(bytes, name), name);
     case Format::hdr:
@@ -226,35 +172,8 @@ std::vector<unsigned char> encode(Format format, const Image& image, bool full_f
             if (!(sample >= 0.0F && sample <= std::numeric_limits<float>::max()))
                 throw fileError(name, "HDR holds no negative and no infinite or NaN values, write .exr");
 
-    const OIIO::TypeDesc memory_type(eight_bits ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::FLOAT);
-    OIIO::TypeDesc file_type = memory_type;
-    if (format == Format::exr && !full_float) file_type = OIIO::TypeDesc::HALF;
-    OIIO::ImageSpec spec(image.width, image.height, image.channels, file_type);
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    if (format == Format::png) {
-        // Measured on 640x480 RGBA frames: the 'sub' filter at level 1 writes in 17 to 28 ms what the
-        // defaults (adaptive filter, level 6) take 90 to 140 ms for, in a file 1 to 19 % larger.
-        constexpr int png_filter_sub = 0x10;
-        spec.attribute("png:filter", png_filter_sub);
-        spec.attribute("png:compressionLevel", 1);
-        if (image.color_space == ColorSpace::srgb) spec.attribute("oiio:ColorSpace", "sRGB");
-    } else if (format == Format::exr) {
-        spec.attribute("compression", "zip");
-        // Without one OpenImageIO writes the time of day, and equal pixels would make unequal files.
-        spec.attribute("DateTime", "1970:01:01 00:00:00");
-    }
-
-    std::vector<unsigned char> bytes;
-    OIIO::Filesystem::IOVecOutput memory(bytes);
-    const std::unique_ptr<OIIO::ImageOutput> output =
-        OIIO::ImageOutput::create(oiio_names[static_cast<std::size_t>(format)]);
-    if (!output || !output->set_ioproxy(&memory))
-        throw fileError(name, "this OpenImageIO lacks the writer for it, install one that has it");
-    const void* pixels =
-        std::visit([](const auto& p) { return static_cast<const void*>(p.data()); }, image.pixels);
-    if (!output->open(name, spec) || !output->write_image(memory_type, pixels) || !output->close())
-        throw fileError(name, "cannot be encoded" + inBrackets(output->geterror()));
-    return bytes;
+    if (format == Format::png) return encodePng(image, name);
+    return openImageIo().encode(format == Format::exr ? "openexr" : "hdr", image, full_float, name);
 }
 
 // The file under its own name is either the old one or the whole new one, whenever one looks.

@@ -1,5 +1,5 @@
-// Images as plain data: pixels in memory, read from and written to files through OpenImageIO.
-// No OpenGL and no OpenImageIO header here; both stay on the other side of this interface.
+// Images as plain data: pixels in memory, read from and written to files through libpng and OpenImageIO.
+// No OpenGL and none of their headers here; all stay on the other side of this interface.
 #pragma once
 
 #include <cstdint>

@@ -45,14 +45,16 @@ class ByteReader {
     const std::string& name_;
 };
 
-// What is left of a PNG or JPEG when all is taken out that its pixels do not need: OpenImageIO acts on what
-// it finds in comments and Exif, of which a picture may say anything ("tiff:RowsPerStrip", 0).
+// What is left of a PNG or JPEG when all is taken out that its pixels do not need: of comments and Exif, of
+// which a picture may say anything ("tiff:RowsPerStrip", 0), OpenImageIO acts on what it finds.
 struct CleanFile {
     std::string bytes;
     std::vector<std::string> warnings;
 };
 CleanFile cleanPng(std::string_view bytes, const std::string& name);
 CleanFile cleanJpeg(std::string_view bytes, const std::string& name);
+Image decodePng(CleanFile file, const std::string& name);
+std::vector<unsigned char> encodePng(const Image& image, const std::string& name); // 8-bit, 1 to 4 channels
 
 // First and last pixel, both inside.
 struct PixelWindow {

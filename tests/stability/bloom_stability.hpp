@@ -113,7 +113,7 @@ class BloomStability : public testing::Test {
         folder.reset();
     }
 
-    // The frames of a test: one process a rung, for each start loads OpenImageIO and compiles anew.
+    // The frames of a test: one process a rung, for each start loads the driver and compiles anew.
     class Runs {
       public:
         explicit Runs(const char* image) : image_(image) {} // null: the rungs' own scenes
