@@ -18,21 +18,29 @@ bool chosenButton(const char* label, bool is_chosen) {
     return pressed;
 }
 
-void numbers(const Stage& stage, const Comparison& comparison, const std::optional<CostProbe::Costs>& costs,
-             bool shows_times) {
-    std::string text = "measuring";
+std::string errorText(const Comparison& comparison, bool is_short) {
+    const auto& measured = comparison.measured();
+    if (!measured) return "measuring";
     char words[96];
-    if (const auto& measured = comparison.measured()) {
+    if (is_short)
+        std::snprintf(words, sizeof words, "FLIP %.4f", measured->flip);
+    else
         std::snprintf(words, sizeof words, "FLIP %.4f, RMSE %.4f, %.1f %% of pixels", measured->flip,
                       measured->rmse, 100.0 * measured->pixels / std::max(measured->of, 1));
-        text = words;
-    }
+    return words;
+}
+
+std::string costText(const Stage& stage, const std::optional<CostProbe::Costs>& costs) {
+    char words[96];
     if (costs && costs->cu.size() == 2)
-        std::snprintf(words, sizeof words, "   A %.2f, B %.2f cu", costs->cu[0], costs->cu[1]);
+        std::snprintf(words, sizeof words, "A %.2f, B %.2f cu", costs->cu[0], costs->cu[1]);
     else
-        std::snprintf(words, sizeof words, "   A %.1f ms, B %.1f ms", stage.timeMs(Stage::a),
+        std::snprintf(words, sizeof words, "A %.1f ms, B %.1f ms", stage.timeMs(Stage::a),
                       stage.timeMs(Stage::b));
-    if (shows_times) text += words;
+    return words;
+}
+
+void number(const std::string& text) {
     ImGui::SameLine();
     ImGui::TextDisabled("%s", text.c_str());
     tooltip(
@@ -82,10 +90,11 @@ void drawCompareBar(const Rectangle& place, float pixels_per_unit, Stage& stage,
     const float em = ImGui::GetFontSize();
     nextWindowAt(place, pixels_per_unit);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.4F * em, 0.25F * em});
-    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.3F * em, 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.3F * em, 0.25F * em});
     ImGui::Begin("##compare", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus);
+    const bool has_two_lines = ImGui::GetContentRegionAvail().y > 2 * ImGui::GetFrameHeight();
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Edit");
     for (const int side : {Stage::a, Stage::b}) {
@@ -96,11 +105,12 @@ void drawCompareBar(const Rectangle& place, float pixels_per_unit, Stage& stage,
     ImGui::SameLine();
     if (ImGui::Button("Off")) comparison.mode = Comparison::Mode::off;
     tooltip("C");
-    if (ImGui::GetWindowWidth() > 42 * em) exchangeButtons(stage); // where it is narrow, X will do
-    ImGui::SameLine();
+    if (has_two_lines || ImGui::GetWindowWidth() > 42 * em) exchangeButtons(stage); // else X will do
+    if (has_two_lines) number(errorText(comparison, true));
     for (const auto mode : {Comparison::Mode::divider, Comparison::Mode::blink, Comparison::Mode::difference,
                             Comparison::Mode::flip}) {
-        ImGui::SameLine(0, mode == Comparison::Mode::divider ? em : 0.15F * em);
+        if (!has_two_lines || mode != Comparison::Mode::divider)
+            ImGui::SameLine(0, mode == Comparison::Mode::divider ? em : 0.15F * em);
         const std::string name = labelOf(Comparison::mode_names[static_cast<std::size_t>(mode)]);
         if (chosenButton(name.c_str(), comparison.mode == mode)) comparison.mode = mode;
         tooltip(mode == Comparison::Mode::divider
@@ -110,7 +120,8 @@ void drawCompareBar(const Rectangle& place, float pixels_per_unit, Stage& stage,
                     ? "what is sent to the display, B less A, 16 times as much"
                     : "where the eye sees a difference when A and B alternate: black none, pale yellow most");
     }
-    numbers(stage, comparison, costs, shows_times);
+    if (!has_two_lines) number(errorText(comparison, false));
+    if (shows_times) number(costText(stage, costs));
     ImGui::End();
     ImGui::PopStyleVar(2);
 }

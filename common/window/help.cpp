@@ -20,7 +20,7 @@ constexpr const char* keys[][2] = {
     {"R", "the scripted camera again"},
     {"P", "write this frame and its command line"},
     {"Ctrl+C", "copy the command line of this frame"},
-    {"Ctrl+Z, Ctrl+Y", "undo, redo"},
+    {"Ctrl+Z, Ctrl+Y", "undo, redo (Ctrl+Shift+Z, too)"},
     {"H", "hide the panel, show it"},
     {"I", "look into every target: click one, drag, wheel, point at a pixel"},
     {"C, O, M", "compare: two settings, with the original ones, the recommended"},
@@ -31,7 +31,7 @@ constexpr const char* keys[][2] = {
     {"Shift+P", "write a picture of the whole window"},
     {"F11", "full screen"},
     {"F1", "this, and away again"},
-    {"Esc", "close a list, leave the panel, or quit"}};
+    {"Esc", "back a step: a list, the panel, a target, comparing; else quit"}};
 
 // Without the marks of a line of Markdown.
 std::string plain(const std::string& line) {

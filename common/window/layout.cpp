@@ -7,9 +7,13 @@
 namespace gll {
 namespace {
 
-constexpr float lowest_strip_em = 5;
+constexpr float lowest_strip_em = 8; // lower, and there is no room for pictures between the words
 
 int pixels(float ems, float em) { return static_cast<int>(std::lround(ems * em)); }
+
+float lines(int picture_width, float em) {
+    return static_cast<float>(picture_width) < narrow_picture_em * em ? 2.0F : 1.0F;
+}
 
 } // namespace
 
@@ -28,10 +32,11 @@ Layout layOut(glm::ivec2 window, float em, const LayoutWish& wish) {
         return Rectangle{{panel, layout.picture.corner.y + layout.picture.size.y},
                          {layout.picture.size.x, height}};
     };
-    const int bar = pixels(wish.timeline_em, em);
-    if (window.y < 4 * bar) return layout;
+    const float of_lines = lines(layout.picture.size.x, em);
+    const int bar = pixels(of_lines * wish.timeline_em, em);
+    if (window.y < 3 * bar) return layout;
     layout.timeline = takeFromBelow(bar);
-    const int above = pixels(wish.bar_em, em);
+    const int above = pixels(of_lines * wish.bar_em, em);
     if (wish.bar && layout.picture.size.y > 3 * above) {
         layout.bar = {layout.picture.corner, {layout.picture.size.x, above}};
         layout.picture.corner.y += above;
@@ -48,9 +53,10 @@ glm::ivec2 windowFor(glm::ivec2 picture, float em, const LayoutWish& wish) {
     if (!wish.panel) return picture;
     glm::ivec2 size = picture;
     size.x += pixels(std::max(wish.panel_em, narrowest_panel_em), em);
-    size.y += pixels(wish.timeline_em, em);
+    const float of_lines = lines(picture.x, em);
+    size.y += pixels(of_lines * wish.timeline_em, em);
     if (wish.strip) size.y += pixels(wish.strip_em, em);
-    if (wish.bar) size.y += pixels(wish.bar_em, em);
+    if (wish.bar) size.y += pixels(of_lines * wish.bar_em, em);
     return size;
 }
 

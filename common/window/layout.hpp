@@ -20,6 +20,9 @@ struct Rectangle {
 
 inline constexpr float narrowest_panel_em = 15;
 inline constexpr float widest_panel = 0.6F; // of the window's width
+// Under a picture that is narrower, and above it, bars have two lines: in one there is no room for all of
+// them.
+inline constexpr float narrow_picture_em = 38;
 
 // What a person wants shown, in ems: the height of a line of text.
 struct LayoutWish {
@@ -27,9 +30,9 @@ struct LayoutWish {
     float panel_em = 22;
     bool strip = false; // of the passes' targets
     float strip_em = 11;
-    float timeline_em = 2;
-    bool bar = false; // above the picture
-    float bar_em = 2;
+    float timeline_em = 2; // of one line
+    bool bar = false;      // above the picture
+    float bar_em = 2;      // of one line
 };
 
 struct Layout {

@@ -146,6 +146,10 @@ void RungWindow::adopt(const WindowState& state) {
     if (!state.rung.empty() && state.rung != info_.name)
         throw std::runtime_error(file + ": is of " + state.rung +
                                  "; open that with it, or name another file");
+    for (const FileOption& option : file_options)
+        if (!(state.files.*option.file).empty() && !info_.takes.contains(option.name))
+            throw std::runtime_error(file + ": files: " + info_.name + " takes no " +
+                                     std::string(option.name) + "; take it out");
     try {
         stage_.applySets(Stage::a, state.sets_a);
         stage_.applySets(Stage::b, state.sets_b);

@@ -47,11 +47,22 @@ TEST(LayoutTest, aHiddenPanelLeavesThePictureAll) {
 
 TEST(LayoutTest, thePictureHasTheSizeThatTheWindowIsMadeFor) {
     for (const float em : {16.0F, 32.0F})
-        for (const glm::ivec2 picture : {glm::ivec2(640, 480), glm::ivec2(1001, 777)})
-            for (const bool strip : {false, true}) {
-                const LayoutWish wish{.strip = strip};
+        for (const glm::ivec2 picture : {glm::ivec2(480, 360), glm::ivec2(640, 480), glm::ivec2(1001, 777)})
+            for (const LayoutWish& wish :
+                 {LayoutWish{}, LayoutWish{.bar = true}, LayoutWish{.strip = true, .strip_em = 8}}) {
+                if (wish.strip && picture.y < 480) continue; // too low for a strip
                 EXPECT_EQ(layOut(windowFor(picture, em, wish), em, wish).picture.size, picture);
             }
+}
+
+TEST(LayoutTest, barsHaveTwoLinesWhereThePictureIsNarrow) {
+    const LayoutWish wish{.bar = true};
+    const Layout wide = layOut({1280, 720}, 16, wish);
+    const Layout narrow = layOut({800, 600}, 16, wish);
+    EXPECT_EQ(wide.timeline.size.y, 32);
+    EXPECT_EQ(wide.bar.size.y, 32);
+    EXPECT_EQ(narrow.timeline.size.y, 64);
+    EXPECT_EQ(narrow.bar.size.y, 64);
 }
 
 } // namespace
