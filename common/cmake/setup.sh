@@ -19,7 +19,7 @@ libimgui-dev            Dear ImGui: the settings panel
 libglm-dev              GLM: vectors and matrices
 libegl-dev              EGL: rendering without a window
 libopengl-dev           OpenGL's library, which CMake asks for beside EGL's
-libosmesa6              OSMesa: rendering without a window, in software
+libosmesa6              OSMesa: rendering without a window, in software; EGL does where Mesa no longer has it
 libgl1                  OpenGL itself, for the window
 libegl1                 EGL itself
 libgl1-mesa-dri         Mesa's drivers, llvmpipe among them
@@ -36,6 +36,7 @@ libgtest-dev            GoogleTest
 libfftw3-dev            FFTW: exact blurs to compare with
 libembree-dev           Embree: rays, to compare shadows with
 libopencolorio-dev      OpenColorIO: ACES to compare tone curves with
+locales                 German, whose numbers have a comma
 xvfb                    a display for the window test
 xauth                   Xvfb's companion
 xdotool                 presses the window's keys
@@ -69,31 +70,46 @@ requirePackages() {
     missing=$({ dpkg-query -W -f '${db:Status-Abbrev} ${Package}\n' $names 2>/dev/null || true; } |
         awk -v names="$names" '$1 == "ii" || $1 == "hi" { there[$2] = 1 }
             END { n = split(names, name, "\n"); for (i = 1; i <= n; ++i) if (!(name[i] in there)) print name[i] }')
+    if hasPackageLists; then missing=$(withoutGone "$missing"); fi
     [ -n "$missing" ] && installPackages "$list" "$missing"
     return 0
 }
 
+# A fresh container has none at all.
+hasPackageLists() { compgen -G '/var/lib/apt/lists/*Packages*' >/dev/null; }
+
+# withoutGone NAMES: one a line, without OSMesa where apt has it no more. Mesa has none from 25.1 on, and rungs then use EGL.
+withoutGone() {
+    if grep -qx libosmesa6 <<<"$1" && ! grep -q 'Candidate: [^(]' <<<"$(LC_ALL=C apt-cache policy libosmesa6)"; then
+        grep -vx libosmesa6 <<<"$1" || true
+    else
+        echo "$1"
+    fi
+}
+
 installPackages() {
     local list=$1 missing=$2 as_root=() log reason=
-    # One line, so that it can be copied from it.
-    missing=$(tr '\n' ' ' <<<"$missing")
-    missing=${missing% }
     if [ "$(id -u)" != 0 ]; then
+        # One line, so that it can be copied from it.
         [ -n "$(type -P sudo)" ] || fail "packages are missing, and only root can install them (there is no sudo)." \
-            "As root, run: apt-get install --no-install-recommends $missing"
+            "As root, run: apt-get install --no-install-recommends $(paste -sd ' ' <<<"$missing")"
         as_root=(sudo)
     fi
+    local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive LC_ALL=C apt-get)
+    local update=("${apt[@]}" -o APT::Update::Error-Mode=any update)
+    log=$(mktemp)
+    if ! hasPackageLists; then
+        "${update[@]}" 2>&1 | tee -a "$log" >&2 || true
+        if hasPackageLists; then missing=$(withoutGone "$missing"); fi
+    fi
+    missing=$(paste -sd ' ' <<<"$missing")
     say "These packages are missing and will be installed with apt-get:"
     while read -r name purpose; do
         if [[ -n $name && " $missing " = *" $name "* ]]; then say "  $(printf '%-22s' "$name") $purpose"; fi
     done <<<"$list"
-    local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive LC_ALL=C apt-get)
-    local update=("${apt[@]}" -o APT::Update::Error-Mode=any update)
     # shellcheck disable=SC2206
     local install=("${apt[@]}" install -y --no-install-recommends $missing)
-    log=$(mktemp)
-    # A fresh container has no package lists at all; old ones may name versions that are gone.
-    if ! compgen -G '/var/lib/apt/lists/*Packages*' >/dev/null; then "${update[@]}" 2>&1 | tee -a "$log" >&2 || true; fi
+    # Old package lists may name versions that are gone.
     "${install[@]}" 2>&1 | tee -a "$log" >&2 ||
         { { "${update[@]}" || true; } && "${install[@]}"; } 2>&1 | tee -a "$log" >&2 || reason="what apt-get said stands above"
     if [ -n "$reason" ] && grep -qE 'Temporary failure resolving|Could not (resolve|connect)|Cannot initiate the connection' "$log"; then

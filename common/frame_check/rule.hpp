@@ -12,8 +12,9 @@ namespace gll::frame_check {
 
 // Measured on the ladder's frames (58 faults in shaders, three versions of Mesa): a real fault moves many
 // pixels by few codes, another Mesa moves few pixels by one code. So differing pixels are counted, and a few
-// along edges may differ by more; but not by much, for then a pixel shows something else. A processor without
-// AVX moves the worst of them by 8 codes.
+// along edges may differ by more; but not by much, for then a pixel shows something else. Without AVX,
+// 266 of 377 frames stay within it; those that do not jump where the last bit of a coordinate is another, by
+// any number of codes.
 struct Rule {
     enum class Kind {
         count, // how far and how many: the two knobs below

@@ -45,6 +45,6 @@ std::unique_ptr<Context> makeEglContext();
 enum class ContextKind { window, headless, osmesa, egl };
 
 // The context of any kind but a window. Throws as above.
-std::unique_ptr<Context> makeHeadlessContext(ContextKind kind);
+std::unique_ptr<Context> makeHeadlessContext(ContextKind kind = ContextKind::headless);
 
 } // namespace gll

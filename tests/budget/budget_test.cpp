@@ -42,7 +42,7 @@ struct Case {
 };
 
 std::vector<std::string> words(const Case& one, std::vector<std::string> more) {
-    more.insert(more.end(), {"--context", "osmesa", "--preset", one.preset});
+    more.insert(more.end(), {"--headless", "--preset", one.preset});
     for (const auto& [key, value] : one.set)
         more.insert(more.end(), {"--set", key + "=" + value});
     if (!one.image.empty()) more.insert(more.end(), {"--image", one.image});

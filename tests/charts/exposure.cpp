@@ -295,8 +295,7 @@ class Metered {
     }
     void run() {
         const test::Result result = test::runToSuccess(
-            {rung_,
-             {"--context", "osmesa", "--json", "--batch", folder_.write("batch.jsonl", lines_).string()}},
+            {rung_, {"--headless", "--json", "--batch", folder_.write("batch.jsonl", lines_).string()}},
             std::chrono::minutes(20));
         std::istringstream stream(result.out);
         for (std::string line; std::getline(stream, line);)

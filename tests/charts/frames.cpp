@@ -27,7 +27,7 @@ std::size_t Frames::ask(const Set& set, glm::ivec2 size, const std::string& targ
 }
 
 void Frames::run() {
-    std::vector<std::string> arguments = {"--context", "osmesa", "--batch",
+    std::vector<std::string> arguments = {"--headless", "--batch",
                                           folder_.write("batch.jsonl", lines_).string()};
     arguments.insert(arguments.end(), arguments_.begin(), arguments_.end());
     test::runToSuccess({rung_, arguments}, std::chrono::minutes(20));
@@ -49,13 +49,9 @@ std::vector<nlohmann::json> costs(const std::filesystem::path& rung, const std::
                      .dump() +
                  "\n";
     const test::TemporaryFolder folder;
-    std::vector<std::string> arguments = {"--context",
-                                          "osmesa",
-                                          "--counter",
-                                          "callgrind",
-                                          "--json",
-                                          "--batch",
-                                          folder.write("batch.jsonl", lines).string()};
+    std::vector<std::string> arguments = {"--headless", "--counter",
+                                          "callgrind",  "--json",
+                                          "--batch",    folder.write("batch.jsonl", lines).string()};
     arguments.insert(arguments.end(), more_arguments.begin(), more_arguments.end());
     const test::Result result = test::runToSuccess({rung, arguments}, std::chrono::minutes(60));
     std::vector<nlohmann::json> reports;

@@ -52,7 +52,7 @@ class Readings {
         const test::TemporaryFolder folder;
         const test::Result result = test::runToSuccess(
             {folders.programs / meter_rung,
-             {"--context", "osmesa", "--json", "--batch", folder.write("batch.jsonl", lines_).string()}});
+             {"--headless", "--json", "--batch", folder.write("batch.jsonl", lines_).string()}});
         std::istringstream stream(result.out);
         for (std::string line; std::getline(stream, line);)
             readings_.push_back(nlohmann::json::parse(line).at("readings"));

@@ -37,11 +37,11 @@ TEST_P(ResizeStability, twoHundredSizesLeakNothingAndLeaveTheSameFrame) {
                 line(size, "any.png");
         line(sizes[0], "last.png");
         // Any OpenGL error ends the program with 1.
-        const test::Result result = test::runToSuccess(
-            {folders.programs / GetParam(),
-             {"--context", "osmesa", "--batch", folder.write("batch.jsonl", lines).string()},
-             // AddressSanitizer would keep what was freed.
-             {{"ASAN_OPTIONS", "quarantine_size_mb=1"}}});
+        const test::Result result =
+            test::runToSuccess({folders.programs / GetParam(),
+                                {"--headless", "--batch", folder.write("batch.jsonl", lines).string()},
+                                // AddressSanitizer would keep what was freed.
+                                {{"ASAN_OPTIONS", "quarantine_size_mb=1"}}});
         EXPECT_FALSE(test::contents(folder / "first.png").empty());
         EXPECT_EQ(test::contents(folder / "first.png"), test::contents(folder / "last.png"));
         return result.peak_memory_kib;

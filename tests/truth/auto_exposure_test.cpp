@@ -69,7 +69,7 @@ class RungTest : public testing::Test {
         }
         const auto result = test::runToSuccess(
             {rung_program,
-             {"--context", "osmesa", "--json", "--batch", folder->write("batch.jsonl", lines).string()}});
+             {"--headless", "--json", "--batch", folder->write("batch.jsonl", lines).string()}});
         std::istringstream out(result.out);
         std::string line;
         for (const Request& request : requests()) {
@@ -133,7 +133,7 @@ TEST_F(RungTest, aFrameIsTheSameHoweverOneComesToIt) {
     same("again 65 999999", "again 66 999039"); // a round of the walk apart, both with a full history
     EXPECT_NE(readings.at("again 60 60"), readings.at("again 61 180"));
     const auto alone = test::runToSuccess(
-        {rung_program, {"--context", "osmesa", "--json", "--readings", "--size", "64x48", "--frame", "180"}});
+        {rung_program, {"--headless", "--json", "--readings", "--size", "64x48", "--frame", "180"}});
     EXPECT_EQ(nlohmann::json::parse(alone.out).at("readings"), readings.at("again 61 180"));
 }
 

@@ -102,7 +102,7 @@ class BlurPasses : public testing::Test {
         return moments;
     }
 
-    std::unique_ptr<Context> context = makeOsmesaContext();
+    std::unique_ptr<Context> context = makeHeadlessContext();
     ShaderLibrary shaders{Resources().shaderRoots()};
     Mesh triangle = Mesh::fullScreenTriangle();
     GaussianBlur blur;

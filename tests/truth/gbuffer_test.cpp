@@ -102,7 +102,7 @@ void main() {
         return result;
     }
 
-    std::unique_ptr<Context> context = makeOsmesaContext();
+    std::unique_ptr<Context> context = makeHeadlessContext();
     Mesh triangle = Mesh::fullScreenTriangle();
     test::TemporaryFolder folder_;
     ShaderLibrary shaders{[&] {

@@ -64,7 +64,7 @@ class MeterTest : public testing::Test {
         return onlyValue(meter.measure(frame, hdr, static_cast<float>(white)));
     }
 
-    std::unique_ptr<Context> context = makeOsmesaContext();
+    std::unique_ptr<Context> context = makeHeadlessContext();
     Settings settings;
     AutoExposureOptions options{settings};
     ShaderLibrary shaders{Resources().shaderRoots()};

@@ -117,7 +117,7 @@ class PyramidTruth : public testing::Test {
         return std::to_string(size.x) + "x" + std::to_string(size.y) + " ";
     }
 
-    std::unique_ptr<Context> context = makeOsmesaContext();
+    std::unique_ptr<Context> context = makeHeadlessContext();
     Mesh triangle = Mesh::fullScreenTriangle();
     ShaderLibrary shaders{Resources().shaderRoots()};
 };

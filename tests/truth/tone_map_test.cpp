@@ -56,7 +56,7 @@ class ToneMapTest : public testing::Test {
         return result;
     }
 
-    std::unique_ptr<Context> context = makeOsmesaContext();
+    std::unique_ptr<Context> context = makeHeadlessContext();
     Mesh triangle = Mesh::fullScreenTriangle();
     ShaderLibrary shaders;
 };

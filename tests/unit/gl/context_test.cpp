@@ -62,7 +62,11 @@ void keepDriverLoaded() {
             dlopen(line.c_str() + path, RTLD_NOW | RTLD_NOLOAD | RTLD_NODELETE);
 }
 
+// Mesa from 25.1 on has none.
+bool hasOsmesa() { return makeHeadlessContext()->kind() == std::string("osmesa"); }
+
 TEST(ContextTest, osmesaAndEglGiveTheSameFrame) {
+    if (!hasOsmesa()) GTEST_SKIP() << "libOSMesa.so.8 is not installed";
     Image osmesa;
     Image egl;
     {
@@ -84,7 +88,7 @@ TEST(ContextTest, osmesaAndEglGiveTheSameFrame) {
 
 TEST(ContextTest, fiftyContextsOfEitherKindLeaveNoFileNoMemoryAndTheSameFrame) {
     const auto once = [](int i) {
-        const auto context = i % 2 == 0 ? makeOsmesaContext() : makeEglContext();
+        const auto context = i % 2 == 0 ? makeHeadlessContext() : makeEglContext();
         Image frame = smallFrame();
         context->debugLog().check("context " + std::to_string(i));
         return frame;
@@ -106,7 +110,7 @@ TEST(ContextTest, fiftyContextsOfEitherKindLeaveNoFileNoMemoryAndTheSameFrame) {
 }
 
 TEST(ContextTest, twoHundredResizesLeaveNoErrorNoMemoryAndTheSameFrame) {
-    const auto context = makeOsmesaContext();
+    const auto context = makeHeadlessContext();
     const Mesh triangle = Mesh::fullScreenTriangle();
     const Program program = makeProgram(full_screen_vertex, R"(#version 330 core
 in vec2 uv;
@@ -138,7 +142,7 @@ void main() { color = vec4(uv, 2.0, 1.0); }
 }
 
 TEST(DebugLogTest, anOpenGlErrorBecomesAnExceptionOnceWithThePlaceAsked) {
-    const auto context = makeOsmesaContext();
+    const auto context = makeHeadlessContext();
     EXPECT_NO_THROW(context->debugLog().check("nothing yet"));
     glEnable(GL_TEXTURE_2D + 0x7777);
     const std::string message = messageOf<std::runtime_error>([&] { context->debugLog().check("my place"); });
@@ -149,7 +153,7 @@ TEST(DebugLogTest, anOpenGlErrorBecomesAnExceptionOnceWithThePlaceAsked) {
 }
 
 TEST(DebugLogTest, aStormOfErrorsIsToldAsItsFirst) {
-    const auto context = makeOsmesaContext();
+    const auto context = makeHeadlessContext();
     glViewport(0, 0, -1, -1);
     for (int i = 0; i < 1000; ++i)
         glEnable(0xFFFF);

@@ -54,7 +54,7 @@ class GlTest : public testing::Test {
 
     void draw(const Framebuffer& target, const Pass& pass) { drawPass("test", target, pass, triangle); }
 
-    std::unique_ptr<Context> context = makeOsmesaContext();
+    std::unique_ptr<Context> context = makeHeadlessContext();
     Mesh triangle = Mesh::fullScreenTriangle();
 };
 

@@ -43,7 +43,7 @@ class CostTest : public testing::Test {
     RungInfo info{.name = "99_copies", .summary = "Copies.", .make = [](RungResources resources) {
                       return std::make_unique<Copies>(resources.shaders);
                   }};
-    std::unique_ptr<Context> context = makeOsmesaContext();
+    std::unique_ptr<Context> context = makeHeadlessContext();
 };
 
 TEST_F(CostTest, theCpuCounterReportsEveryPassInOrder) {

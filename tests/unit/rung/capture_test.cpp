@@ -105,7 +105,7 @@ TEST(CaptureTest, writableNamesAreThoseOfThreeFormats) {
 }
 
 TEST(CaptureTest, targetsAreListedOnceInTheOrderDrawnAndFoundByName) {
-    const auto context = makeOsmesaContext();
+    const auto context = makeHeadlessContext();
     const Framebuffer scene({{"hdr"}, {"depth", Format::depth24}}, {2, 2});
     const Framebuffer bloom({{"bloom0"}}, {1, 1});
     const std::vector<DrawnPass> passes = {{"scene", &scene}, {"bright", &bloom}, {"up0", &bloom}};
@@ -117,7 +117,7 @@ TEST(CaptureTest, targetsAreListedOnceInTheOrderDrawnAndFoundByName) {
 }
 
 TEST(CaptureTest, aTextureIsReadWithItsOwnChannelsRangeAndMeaning) {
-    const auto context = makeOsmesaContext();
+    const auto context = makeHeadlessContext();
     const Floats pixels = {0.5F, 0.25F, 8, 1};
     const Image linear = readTexture(Texture({.format = Format::rgba16f}, pixels));
     EXPECT_EQ(std::get<Floats>(linear.pixels), pixels);

@@ -33,7 +33,7 @@ class LiveShadersTest : public testing::Test {
         return all;
     }
 
-    std::unique_ptr<Context> context = makeOsmesaContext();
+    std::unique_ptr<Context> context = makeHeadlessContext();
     TemporaryFolder folder;
     ShaderLibrary library{{folder.path()}};
     LiveShaders live{"10_rung", library};
