@@ -45,6 +45,9 @@ x11-utils               asks the window for its state
 imagemagick             takes and compares screenshots
 valgrind                exact instruction counts
 gnuplot-nox             draws charts
+tachyon-bin-nox         a ray tracer, to check frames of
+gstreamer1.0-gl         draws by OpenGL, to check frames of
+gstreamer1.0-tools      runs it
 "
 
 say() { printf '%s\n' "$*" >&2; }

@@ -24,8 +24,9 @@ struct Reference {
 std::vector<Reference> referencesOf(const Suite& suite, const Case& one) {
     const fs::path own = suite.pictureOf(one.name);
     if (own.empty() || one.blessed.empty())
-        throw std::runtime_error("there is no blessed picture; look at the frame, then " +
-                                 blessLine(suite, one));
+        throw std::runtime_error(
+            "there is no blessed picture; look at the frame, which --report FILE.html shows, then " +
+            blessLine(suite, one));
     std::vector<Reference> references;
     const auto add = [&](const fs::path& file) {
         Image image = loadImage(file);

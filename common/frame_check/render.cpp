@@ -81,6 +81,9 @@ fs::path programNamed(const std::string& name, const Suite& suite) {
         if (const fs::path program = fs::path(folder) / name;
             !name.empty() && access(program.c_str(), X_OK) == 0 && !fs::is_directory(program))
             return program;
+    if (access((workFolder(suite) / name).c_str(), X_OK) == 0)
+        throw std::runtime_error("\"" + name + "\" is no program in PATH; for the one in " +
+                                 workFolder(suite).string() + ", write \"./" + name + "\"");
     throw std::runtime_error("\"" + name +
                              "\" is no program that is found here; install it, or say --program FILE");
 }

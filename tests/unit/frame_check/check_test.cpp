@@ -76,7 +76,7 @@ TEST(Check, hasAnOutcomeForEachCase) {
     EXPECT_EQ(outcome("unreadable"), Outcome::incomparable);
     EXPECT_EQ(outcome("no_reference"), Outcome::incomparable);
     EXPECT_CONTAINS(why("no_reference"),
-                    "there is no blessed picture; look at the frame, then frame_check --suite");
+                    "there is no blessed picture; look at the frame, which --report FILE.html shows, then");
     EXPECT_EQ(outcome("other_reference"), Outcome::incomparable);
     EXPECT_CONTAINS(why("other_reference"), "other_reference.png is none that other_reference.json blesses");
     EXPECT_EQ(outcome("never_blessed"), Outcome::incomparable);
@@ -119,6 +119,16 @@ TEST(Check, ofASuiteWhoseProgramIsNotThereComparesNothing) {
     const SuiteResult result = check(frame_check::readSuites(folder.path())[0], {});
     EXPECT_EQ(result.cases[0].outcome, Outcome::incomparable);
     EXPECT_CONTAINS(result.cases[0].why, "no/such/program: is no program to run; build it, or say --program");
+}
+
+TEST(Check, ofASuiteWhoseProgramLiesBesideItSaysHowItIsNamed) {
+    const TemporaryFolder folder;
+    folder.write("suite.json", R"({"program": "draw", "command": ["{program}", "{out}"]})");
+    folder.write("a.json", "{" + blessedJson(grey()) + "}");
+    saveImage(folder / "a.png", grey());
+    std::filesystem::permissions(folder.write("draw", "#!/bin/sh\n"), std::filesystem::perms::owner_all);
+    const SuiteResult result = check(frame_check::readSuites(folder.path())[0], {});
+    EXPECT_CONTAINS(result.cases[0].why, "write \"./draw\"");
 }
 
 // A program for batches: copies what a line names, stops at a case called "crash".
