@@ -47,6 +47,7 @@ GlInfo loadGl(GLADloadfunc get_function) {
         throw std::runtime_error("OpenGL: 3.3 core is needed, and this context offers " + info.version);
     for (const char* name : {"llvmpipe", "softpipe", "SwiftShader", "Software Rasterizer"})
         if (info.renderer.find(name) != std::string::npos) info.is_software = true;
+    glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS); // what is read at the edge of a side is a mean across it
     return info;
 }
 

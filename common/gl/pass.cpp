@@ -52,6 +52,7 @@ class Bindings {
         for (std::size_t unit = 0; unit < units_.size(); ++unit) {
             glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
             glBindTexture(GL_TEXTURE_2D, 0);
+            glBindTexture(GL_TEXTURE_CUBE_MAP, 0);
         }
         glActiveTexture(GL_TEXTURE0);
         glUseProgram(0);
@@ -83,7 +84,7 @@ class Bindings {
     void set(const Input& input) {
         const int unit = static_cast<int>(units_.try_emplace(input.sampler, units_.size()).first->second);
         glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
-        glBindTexture(GL_TEXTURE_2D, input.texture->id());
+        glBindTexture(input.texture->target(), input.texture->id());
         program_.set(input.sampler, unit);
         given_.insert(input.sampler);
     }
@@ -173,8 +174,8 @@ double bytesPerPixel(const Framebuffer& target, const Pass& pass) {
     std::set<GLuint> counted;
     const auto add = [&](const Input& input) {
         if (counted.insert(input.texture->id()).second)
-            bytes +=
-                formatInfo(input.texture->format()).bytes * area(input.texture->size()) / area(target.size());
+            bytes += formatInfo(input.texture->format()).bytes * area(input.texture->size()) *
+                     input.texture->sides() / area(target.size());
     };
     const auto addUsed = [&](const ShaderPart& part, const Program& program) {
         for (const Input& input : part.inputs)

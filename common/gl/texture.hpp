@@ -1,4 +1,4 @@
-// A two-dimensional texture with its sampling state.
+// A texture, two-dimensional or the six sides of a cube, with its sampling state.
 #pragma once
 
 #include "gl/format.hpp"
@@ -28,6 +28,9 @@ struct TextureDescription {
     int levels = 1;             // mip levels allocated; levelCount(size) for all of them
     bool compare_depth = false; // sampled as sampler2DShadow: reference <= stored gives 1
     float anisotropy = 1.0F;    // above 1 where GL_EXT_texture_filter_anisotropic is offered, else ignored
+    // Sides of a cube, of this size each and square: sampled as samplerCube, by a direction. Pixels hold +x,
+    // -x, +y, -y, +z, -z one after the other, each with its row t = 0 first (OpenGL 3.3, table 3.21).
+    bool is_cube = false;
 };
 
 // How many mip levels a texture of this size has down to 1x1: floor(log2(longest side)) + 1.
@@ -44,6 +47,8 @@ class Texture {
     Texture(const TextureDescription& description, std::span<const float> pixels);
 
     GLuint id() const { return handle_.id(); }
+    GLenum target() const { return description_.is_cube ? GL_TEXTURE_CUBE_MAP : GL_TEXTURE_2D; }
+    int sides() const { return description_.is_cube ? 6 : 1; }
     glm::ivec2 size() const { return description_.size; }
     Format format() const { return description_.format; }
     const TextureDescription& description() const { return description_; }
@@ -59,7 +64,7 @@ class Texture {
 
     // Overwrites one texel of level 0 of a colour texture, counted from the bottom left, with value in every
     // channel: for tests of what one bad pixel does. Throws std::out_of_range where the texture has no such
-    // texel.
+    // texel, and of a cube always.
     void setTexel(glm::ivec2 texel, float value) const;
 
   private:

@@ -10,7 +10,12 @@ uniform sampler2D coarse_map; // equirectangular, a few pixels
 uniform vec3 irradiance_sh[9]; // irradiance / pi, see radiance_map.hpp
 #endif
 #if ENVIRONMENT_SPECULAR == ENVIRONMENT_SPECULAR_PREFILTERED
-uniform sampler2D prefiltered_map; // level r (1.7 - 0.7 r) prefiltered_levels holds GGX roughness r
+// level r (1.7 - 0.7 r) prefiltered_levels holds GGX roughness r
+#if ENVIRONMENT_LAYOUT == ENVIRONMENT_LAYOUT_CUBE
+uniform samplerCube prefiltered_map;
+#else
+uniform sampler2D prefiltered_map;
+#endif
 uniform float prefiltered_levels;  // number of the last
 #if ENVIRONMENT_LAYOUT == ENVIRONMENT_LAYOUT_OCTAHEDRAL
 #include "06_gbuffer/octahedral.glsl"
@@ -81,7 +86,9 @@ vec3 environmentSpecular(vec3 direction, float roughness) {
     return textureLod(environment_map, equirectangularUv(direction), 0.0).rgb;
 #else
     float level = prefilteredLevel(roughness);
-#if ENVIRONMENT_LAYOUT == ENVIRONMENT_LAYOUT_OCTAHEDRAL
+#if ENVIRONMENT_LAYOUT == ENVIRONMENT_LAYOUT_CUBE
+    return textureLod(prefiltered_map, direction, level).rgb;
+#elif ENVIRONMENT_LAYOUT == ENVIRONMENT_LAYOUT_OCTAHEDRAL
     return prefilteredRadiance(direction, level);
 #else
     return textureLod(prefiltered_map, equirectangularUv(direction), level).rgb;

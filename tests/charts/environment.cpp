@@ -8,6 +8,7 @@
 #include "support/choices.hpp"
 #include "truth/environment_reference.hpp"
 
+#include <cmath>
 #include <iterator>
 #include <set>
 #include <string>
@@ -41,6 +42,7 @@ const std::vector<Method> glossy = {
     {"one fetch", {{"environment_brdf", "table"}}, "the original's fetch"},
     {"prefiltered", prefiltered},
     {"prefiltered, sun a light", with_sun, "recommended"},
+    {"the same, cube", joined(with_sun, {{"environment_layout", "cube"}})},
     {"the same, octahedral", joined(with_sun, {{"environment_layout", "octahedral"}})}};
 
 const std::vector<Method> matt = {{"raw", {}, "the original"},
@@ -70,16 +72,19 @@ void requireAll(const fs::path& programs) {
     test::requireCovered(rung, "environment_diffuse", names);
     test::requireCovered(rung, "environment_brdf", {"original", "table", "karis", "lazarov"});
     test::requireCovered(rung, "brdf_table_size", {"16", "32", "64"});
-    test::requireCovered(rung, "environment_layout", {"equirectangular", "octahedral"});
+    test::requireCovered(rung, "environment_layout", {"equirectangular", "cube", "octahedral"});
     test::requireCovered(rung, "environment_energy", {"none", "fdez_aguera", "turquin"});
 }
 
 double mapBytes(const Set& set) {
     if (!set.contains("environment_specular")) return 1024 * 512 * 6;
     double bytes = 0; // as Environment::bytes() counts them
-    const bool octahedral = set.contains("environment_layout");
+    const auto layout = set.find("environment_layout");
+    const double texels = layout == set.end()        ? 1024 * 512
+                          : layout->second == "cube" ? 6 * 256 * 256
+                                                     : 512 * 512;
     for (int level = 0; level <= 5; ++level)
-        bytes += double((octahedral ? 512 : 1024) >> level) * (512 >> level) * 6;
+        bytes += texels / std::pow(4, level) * 6;
     return bytes;
 }
 
@@ -175,7 +180,8 @@ void drawEnvironmentCharts(const fs::path& programs, const fs::path& costs_csv, 
             glossy_table.rows.push_back({name, shortNumber(roughness), shortNumber(error.rmsPercent()),
                                          shortNumber(error.biasPercent()),
                                          i < glossy.size() ? glossy[i].mark : ""});
-            if (ball > 0 && (i != 3)) // a mirror is exact; octahedral is as equirectangular
+            // a mirror is exact; cube and octahedron are as equirectangular
+            if (ball > 0 && !(i < glossy.size() && glossy[i].set.contains("environment_layout")))
                 by_roughness.push_back({name, "", roughness, error.rmsPercent(),
                                         i < glossy.size() && ball == 3 ? glossy[i].mark : "", true, false,
                                         i < glossy.size() ? std::optional(glossy[i].set) : std::nullopt});

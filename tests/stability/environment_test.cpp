@@ -187,7 +187,14 @@ TEST_F(EnvironmentStability, roughMetalLosesMostOfItsEnergyUnlessItIsGivenBack) 
     }
 }
 
-// Where u jumps from 1 to 0, and where an octahedron is folded.
+// Which of the axes a direction is longest along, and to which side: the side of a cube that it meets.
+int sideOf(const glm::dvec3& direction) {
+    const glm::dvec3 length = glm::abs(direction);
+    const int axis = length.x >= length.y && length.x >= length.z ? 0 : length.y >= length.z ? 1 : 2;
+    return 2 * axis + (direction[axis] < 0 ? 1 : 0);
+}
+
+// Where u jumps from 1 to 0, where two sides of a cube meet, and where an octahedron is folded.
 TEST_F(EnvironmentStability, storedMapsHaveNoSeamAndMirrorsStaySharp) {
     const truth::SkyReference sky(
         truth::SkyReference(loadImage(folders.tutorials.parent_path() / "assets/sky/sky.hdr")).cutAt(8));
@@ -218,7 +225,8 @@ TEST_F(EnvironmentStability, storedMapsHaveNoSeamAndMirrorsStaySharp) {
             for (std::size_t p = 0; p + 1 < pixels.size(); ++p) {
                 const glm::dvec3& one = pixels[p].mirrored;
                 const glm::dvec3& other = pixels[p + 1].mirrored;
-                const bool crosses = layouts[i] == "octahedral"
+                const bool crosses = layouts[i] == "cube" ? sideOf(one) != sideOf(other)
+                                     : layouts[i] == "octahedral"
                                          ? one.z < 0 && other.z < 0 && (one.x < 0) != (other.x < 0)
                                          : one.x < 0 && (one.z < 0) != (other.z < 0);
                 if (!crosses || pixels[p + 1].x != pixels[p].x + 1 || ++seen % 4 != 0) continue;
@@ -235,7 +243,9 @@ TEST_F(EnvironmentStability, storedMapsHaveNoSeamAndMirrorsStaySharp) {
         ASSERT_GT(seen, 10) << layouts[i] << ": no seam is seen";
         tell(layouts[i], "largest step at a seam that is not the sky's, % of the light there",
              100 * worst / mean, 2);
-        EXPECT_LT(worst / mean, 0.005) << layouts[i];
+        // Between two sides of a cube, texels of the last level are 9 degrees apart, and a line of bilinear
+        // means has a bend there.
+        EXPECT_LT(worst / mean, layouts[i] == "cube" ? 0.006 : 0.005) << layouts[i];
     }
 }
 

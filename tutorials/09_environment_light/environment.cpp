@@ -27,9 +27,10 @@ EnvironmentOptions::EnvironmentOptions(Settings& settings)
       sun(settings.toggle(
           "environment_sun", false,
           "the brightest small light is taken out of the prefiltered map, and lit by as a light")),
-      layout(settings.choice("environment_layout", "equirectangular", {"equirectangular", "octahedral"},
-                             "how the prefiltered map is stored: by latitude and longitude, or as an "
-                             "octahedron, unfolded")),
+      layout(settings.choice("environment_layout", "equirectangular",
+                             {"equirectangular", "cube", "octahedral"},
+                             "how the prefiltered map is stored: by latitude and longitude, as the six sides "
+                             "of a cube, or as an octahedron, unfolded")),
       brdf(settings.choice("environment_brdf", "original", {"original", "table", "karis", "lazarov"},
                            "how much is reflected: a tenth, more at grazing angles; GGX from a table; "
                            "fits to such tables")),
@@ -80,7 +81,7 @@ double bytesOf(const TextureDescription& texture) {
     double texels = 0;
     for (int level = 0; level < texture.levels; ++level)
         texels += double(std::max(texture.size.x >> level, 1)) * std::max(texture.size.y >> level, 1);
-    return texels * formatInfo(texture.format).bytes;
+    return texels * formatInfo(texture.format).bytes * (texture.is_cube ? 6 : 1);
 }
 
 // The level of the chain that is as fine as a map of this width, or the finest.
@@ -143,28 +144,33 @@ const Texture& Environment::prefilteredMap(const EnvironmentOptions& options) {
                               .has_sun = !options.sun && parted().sun};
     // Level 0 is the map itself, for mirrors. A small one is drawn larger, since texels of the last level
     // must still be small beside the widest lobe; a large one smaller, since lobes would not show it.
-    const bool octahedral = options.layout == "octahedral";
+    const bool equirectangular = options.layout == "equirectangular";
+    const bool cube = options.layout == "cube";
+    const auto directions = [&](int side) {
+        return cube ? cubeDirections(side) : octahedralDirections(side);
+    };
     glm::ivec2 size(std::clamp(map_.width, 512, 2048), std::clamp(map_.height, 256, 1024));
-    if (octahedral) size = glm::ivec2(int(std::bit_ceil(unsigned(size.y))));
+    if (!equirectangular) size = glm::ivec2(int(std::bit_ceil(unsigned(size.y)))) / (cube ? 2 : 1);
     TextureDescription description = described(size, last_level + 1);
-    if (octahedral) description.wrap_x = Wrap::clamp_to_edge;
-    const int needed = octahedral ? 2 * size.x : size.x; // pixels all round
+    description.is_cube = cube;
+    if (!equirectangular) description.wrap_x = Wrap::clamp_to_edge;
+    const int needed = size.x * (equirectangular ? 1 : cube ? 4 : 2); // pixels all round
     const RadianceMap& finest = map_.width < 2 * needed ? map_ : levelFor(chain(), needed);
-    if (octahedral) {
-        std::vector<glm::vec3> pixels;
-        for (const glm::vec3& direction : octahedralDirections(size.x))
-            pixels.push_back(lookUp(finest, uvOf(direction)));
-        prefiltered_.emplace(description, floats(pixels));
-    } else {
+    if (equirectangular) {
         const bool same = finest.width == size.x && finest.height == size.y;
         prefiltered_.emplace(description, floats(same ? finest.pixels : resampled(finest, size)));
+    } else {
+        std::vector<glm::vec3> pixels;
+        for (const glm::vec3& direction : directions(size.x))
+            pixels.push_back(lookUp(finest, uvOf(direction)));
+        prefiltered_.emplace(description, floats(pixels));
     }
     for (int level = 1; level <= last_level; ++level) {
         const glm::ivec2 smaller(size.x >> level, size.y >> level);
         prefiltered_->setLevel(
-            level, floats(octahedral ? prefiltered(source, octahedralDirections(smaller.x),
-                                                   roughnessOf(level), prefilter)
-                                     : prefiltered(source, smaller, roughnessOf(level), prefilter)));
+            level, floats(equirectangular
+                              ? prefiltered(source, smaller, roughnessOf(level), prefilter)
+                              : prefiltered(source, directions(smaller.x), roughnessOf(level), prefilter)));
     }
     prefiltered_as_ = as;
     return *prefiltered_;

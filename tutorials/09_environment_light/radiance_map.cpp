@@ -415,6 +415,25 @@ std::vector<glm::vec3> prefiltered(const std::vector<RadianceMap>& chain, glm::i
     return texels;
 }
 
+std::vector<glm::vec3> cubeDirections(int size) {
+    // the middle of a side, and what its s and t grow along: OpenGL 3.3, table 3.21
+    struct Side {
+        glm::vec3 middle, s, t;
+    };
+    constexpr Side sides[] = {{{1, 0, 0}, {0, 0, -1}, {0, -1, 0}}, {{-1, 0, 0}, {0, 0, 1}, {0, -1, 0}},
+                              {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}},   {{0, -1, 0}, {1, 0, 0}, {0, 0, -1}},
+                              {{0, 0, 1}, {1, 0, 0}, {0, -1, 0}},  {{0, 0, -1}, {-1, 0, 0}, {0, -1, 0}}};
+    std::vector<glm::vec3> directions;
+    directions.reserve(6 * countOf(size, size));
+    for (const Side& side : sides)
+        for (int row = 0; row < size; ++row)
+            for (int column = 0; column < size; ++column) {
+                const glm::vec2 p = 2.0F * (glm::vec2(column, row) + 0.5F) / static_cast<float>(size) - 1.0F;
+                directions.push_back(glm::normalize(side.middle + p.x * side.s + p.y * side.t));
+            }
+    return directions;
+}
+
 std::vector<glm::vec3> octahedralDirections(int size) {
     std::vector<glm::vec3> directions;
     directions.reserve(countOf(size, size));

@@ -92,5 +92,7 @@ std::vector<glm::vec3> prefiltered(const std::vector<RadianceMap>& chain, glm::i
 // Octahedral maps of size x size texels: those at the rim stand on the rim, so that a lower level's edge is
 // the same directions. Texel by texel, rows from the bottom.
 std::vector<glm::vec3> octahedralDirections(int size);
+// Cube maps of six sides of size x size texels, in the order of their pixels in a Texture.
+std::vector<glm::vec3> cubeDirections(int size);
 
 } // namespace gll::environment_light

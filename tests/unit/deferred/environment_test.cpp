@@ -208,6 +208,23 @@ TEST(Environment, hasALobeWithAnIntegral) {
         }
 }
 
+// Neighbours of one side are near each other, and every direction's texel belongs to one side.
+TEST(Environment, asACubeCoversAllDirectionsOnce) {
+    constexpr int size = 8;
+    const std::vector<glm::vec3> directions = cubeDirections(size);
+    ASSERT_EQ(directions.size(), 6U * size * size);
+    glm::dvec3 sum(0);
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        const glm::vec3 length = glm::abs(directions[i]);
+        const float longest = std::max({length.x, length.y, length.z});
+        const auto axis = static_cast<int>(i / (2 * size * size));
+        EXPECT_EQ(length[axis], longest) << i;
+        EXPECT_EQ(directions[i][axis] < 0, i / (size * size) % 2 == 1) << i;
+        sum += glm::dvec3(directions[i]);
+    }
+    EXPECT_LT(glm::length(sum), 1e-4);
+}
+
 TEST(Environment, asAnOctahedronFoldsItsRimOntoItself) {
     constexpr int size = 16;
     const std::vector<glm::vec3> directions = octahedralDirections(size);

@@ -2,6 +2,7 @@
 #include "gl_test.hpp"
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <stdexcept>
 
@@ -35,6 +36,54 @@ TEST_F(TextureTest, uploadsTakeTheBottomRowFirstAndReadingGivesTheTopRowFirst) {
               (std::vector<float>{5, 6, 3, 4, 1, 2}));
     EXPECT_EQ(sampled(texture, {0.25F, 0.1F}, 0, triangle).r, 1);
     EXPECT_EQ(sampled(texture, {0.75F, 0.9F}, 0, triangle).r, 6);
+}
+
+// Each side's texels hold the direction to their own middles, which a shader then finds there.
+TEST_F(TextureTest, aCubeIsReadByDirectionAndAcrossItsEdges) {
+    constexpr int size = 4;
+    constexpr glm::vec3 middles[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    constexpr glm::vec3 along_s[] = {{0, 0, -1}, {0, 0, 1}, {1, 0, 0}, {1, 0, 0}, {1, 0, 0}, {-1, 0, 0}};
+    constexpr glm::vec3 along_t[] = {{0, -1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, {0, -1, 0}, {0, -1, 0}};
+    std::vector<float> pixels;
+    for (int side = 0; side < 6; ++side)
+        for (int row = 0; row < size; ++row)
+            for (int column = 0; column < size; ++column) {
+                const glm::vec3 direction =
+                    middles[side] + (2 * (static_cast<float>(column) + 0.5F) / size - 1) * along_s[side] +
+                    (2 * (static_cast<float>(row) + 0.5F) / size - 1) * along_t[side];
+                pixels.insert(pixels.end(), {direction.x, direction.y, direction.z});
+            }
+    Texture texture({.size = {size, size},
+                     .format = Format::rgba32f,
+                     .filter = Filter::trilinear,
+                     .levels = 2,
+                     .is_cube = true},
+                    pixels);
+    texture.setLevel(1, std::vector<float>(6 * 4 * 3, 7.0F));
+    const Program program = makeProgram(full_screen_vertex, R"(#version 330 core
+uniform samplerCube source;
+uniform vec3 at;
+uniform float lod;
+out vec4 color;
+void main() { color = textureLod(source, at, lod); }
+)");
+    const Framebuffer target({{"out", Format::rgba32f}}, {1, 1});
+    const auto read = [&](const glm::vec3& at, float lod) {
+        drawPass(
+            "sample", target,
+            {.program = program, .inputs = {{"source", texture}}, .uniforms = {{"at", at}, {"lod", lod}}},
+            triangle);
+        return glm::vec3(pixelOf(target.color(), 0, 0));
+    };
+    for (std::size_t i = 0; i < pixels.size(); i += 3) {
+        const glm::vec3 direction(pixels[i], pixels[i + 1], pixels[i + 2]);
+        EXPECT_LT(glm::distance(read(direction, 0), direction), 1e-3F) << i / 3;
+    }
+    // In the middle of an edge: the mean of both sides, whose texels end an eighth of a side before it.
+    EXPECT_LT(glm::distance(read({1, 1, 0}, 0), glm::vec3(0.875F, 0.875F, 0)), 1e-3F);
+    EXPECT_EQ(read({0.3F, -1, 0.2F}, 1), glm::vec3(7));
+    EXPECT_THROW(Texture({.size = {4, 2}, .is_cube = true}), std::invalid_argument);
+    EXPECT_THROW(texture.setTexel({0, 0}, 1), std::out_of_range);
 }
 
 TEST_F(TextureTest, byteRowsOfAnyLengthAreReadWhole) {
