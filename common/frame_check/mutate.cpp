@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <fstream>
 #include <map>
 #include <mutex>
@@ -79,12 +80,20 @@ class Runner {
     }
 
     MutationResult run() {
+        // All that is copied is there before a thread runs a program: whatever is written while another
+        // thread forks stays open for writing in its child, and a program that is open so cannot be run.
+        std::deque<ShaderCopy> copies;
+        for (unsigned i = 0; i < options_.jobs; ++i) {
+            copies.emplace_back(options_.shaders);
+            for (const Suite& suite : suites_)
+                options_.within(suite, copies.back().path());
+        }
         std::vector<std::thread> threads;
         std::string error;
-        for (unsigned i = 0; i < options_.jobs; ++i)
+        for (const ShaderCopy& copy : copies)
             threads.emplace_back([&] {
                 try {
-                    work();
+                    work(copy);
                 } catch (const std::exception& caught) {
                     const std::lock_guard lock(mutex_);
                     error = caught.what();
@@ -168,8 +177,7 @@ class Runner {
         return changed;
     }
 
-    void work() {
-        const ShaderCopy copy(options_.shaders);
+    void work(const ShaderCopy& copy) {
         for (;;) {
             MutationOutcome outcome;
             {

@@ -41,17 +41,18 @@ struct MutationOutcome {
 };
 
 struct MutationOptions {
-    std::filesystem::path shaders; // the folder; of what lies in it, files that end as GLSL does
-    std::string only = {};         // shaders whose name holds this
-    std::size_t sample = 0;        // so many faults in all, of those that are not excused; 0: by share
-    double share = 0.05;           // of each file's faults, but at least three
-    std::uint64_t seed = 1;        // which ones
-    unsigned jobs = 1;             // suites at once
+    std::filesystem::path shaders = {}; // the folder; of what lies in it, files that end as GLSL does
+    std::string only = {};              // shaders whose name holds this
+    std::size_t sample = 0;             // so many faults in all, of those that are not excused; 0: by share
+    double share = 0.05;                // of each file's faults, but at least three
+    std::uint64_t seed = 1;             // which ones
+    unsigned jobs = 1;                  // suites at once
     std::vector<Excuse> excuses = {};
     // A program that ends without a frame and says this on stderr has seen the fault itself.
     std::string noticed = {};
-    // The suite as it is drawn with the shaders in folder/shaders, a copy. Called before each drawing.
-    std::function<Suite(const Suite&, const std::filesystem::path& folder)> within;
+    // The suite as it is drawn with the shaders in folder/shaders, a copy. Called before each drawing,
+    // and once for each copy before any.
+    std::function<Suite(const Suite&, const std::filesystem::path& folder)> within = {};
     // Whether a frame of the suite can be drawn with a shader. Where it is not given, that is tried,
     // by a file that is no shader.
     std::function<bool(const Suite&, const std::string& shader)> draws_with = {};
