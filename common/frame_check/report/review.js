@@ -21,7 +21,8 @@ function showAccept() {
   const rest = find("#accept_group");
   rest.hidden = !canAccept(entry) || group.length < 2;
   rest.textContent = `Accept all ${group.length} of its group`;
-  find("#accept_said").textContent = accepted.has(entry.id) ? `accepted: ${accepted.get(entry.id)}` : "";
+  const end = data.cases.some(canAccept) ? "" : "; nothing is left to accept, Ctrl-C in the terminal ends the review";
+  find("#accept_said").textContent = accepted.has(entry.id) ? `accepted: ${accepted.get(entry.id)}${end}` : "";
 }
 
 // One after the other: each is drawn once more before it is written.
