@@ -29,7 +29,6 @@ struct Options {
     bool github = false;
     bool quiet = false;
     bool reviews = false;
-    bool opens = false;
     bool blesses = false;
     bool all = false;
     BlessOptions bless;
@@ -117,10 +116,8 @@ int checkAndSay(const Options& options) {
     if (!options.warnings.empty()) writeWarnings(options.warnings, results);
     if (std::fflush(stdout) != 0) throw std::runtime_error("stdout: cannot be written, make room there");
     if (options.reviews)
-        review(results, {.title = titleOf(options),
-                         .changes = changesIn(options),
-                         .adds = options.bless.adds,
-                         .opens = options.opens});
+        review(results,
+               {.title = titleOf(options), .changes = changesIn(options), .adds = options.bless.adds});
     return countsOf(results).exitCode();
 }
 
@@ -218,10 +215,11 @@ void addMutationOptions(CLI::App& app, Options& options) {
         ->group(group);
     app.add_option("--sample", options.mutation.sample,
                    "So many faults in all, of those that are not excused")
+        ->check(CLI::Range(1, 1'000'000))
         ->type_name("N")
         ->group(group);
     app.add_option("--share", options.mutation.share, "Or this share of each file's, at least three (0.05)")
-        ->check(CLI::Range(0.0, 1.0))
+        ->check(CLI::Range(1e-6, 1.0))
         ->type_name("X")
         ->group(group);
     app.add_option("--seed", options.mutation.seed, "Which ones (1)")->type_name("N")->group(group);
@@ -268,7 +266,6 @@ void addOptions(CLI::App& app, Options& options) {
     app.add_flag(
         "--review", options.reviews,
         "Then show the report in a browser of this machine, with buttons that accept; never where CI is set");
-    app.add_flag("--open", options.opens, "With --review: open it in the desktop's browser");
     app.add_flag("--bless", options.blesses,
                  "Accept the cases' frames as they are drawn now; never where CI is set");
     app.add_option("--because", options.bless.because, "With --bless: why they are right")->type_name("TEXT");
@@ -315,7 +312,6 @@ int run(int argc, char** argv) {
                 throw UsageError("--mutate writes nothing; leave the rest out");
             return mutateSuite(options);
         }
-        if (options.opens && !options.reviews) throw UsageError("--open belongs to --review");
         if (options.suite.empty() && !options.blesses && options.words.size() != 2)
             throw UsageError("give two pictures, NEW and REFERENCE, or --suite DIR; see --help");
         return options.blesses ? blessSuite(options) : checkAndSay(options);

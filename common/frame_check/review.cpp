@@ -156,19 +156,6 @@ class Reviewer {
     Json accepted_ = Json::object();
 };
 
-std::optional<Process> openedBrowser(const std::string& address) {
-    const auto is_set = [](const char* name) {
-        const char* value = std::getenv(name);
-        return value != nullptr && *value != '\0';
-    };
-    const fs::path opener = "/usr/bin/xdg-open";
-    if ((!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) || access(opener.c_str(), X_OK) != 0) {
-        std::puts("--open: there is no display, or no xdg-open, here; open the address yourself");
-        return std::nullopt;
-    }
-    return std::optional<Process>(std::in_place, Command{.program = opener, .arguments = {address}});
-}
-
 } // namespace
 
 void review(std::vector<SuiteResult>& suites, const ReviewOptions& options) {
@@ -183,6 +170,7 @@ void review(std::vector<SuiteResult>& suites, const ReviewOptions& options) {
     sigemptyset(&ends);
     sigaddset(&ends, SIGINT);
     sigaddset(&ends, SIGTERM);
+    sigaddset(&ends, SIGHUP);
     pthread_sigmask(SIG_BLOCK, &ends, &before);
     std::thread server([&] { reviewer.run(); });
     reviewer.awaitRunning();
@@ -191,7 +179,6 @@ void review(std::vector<SuiteResult>& suites, const ReviewOptions& options) {
         "the review.\n",
         reviewer.address().c_str());
     std::fflush(stdout);
-    const std::optional<Process> browser = options.opens ? openedBrowser(reviewer.address()) : std::nullopt;
     int signal = 0;
     sigwait(&ends, &signal);
     pthread_sigmask(SIG_SETMASK, &before, nullptr); // a second Ctrl-C ends it at once

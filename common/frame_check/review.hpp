@@ -14,7 +14,6 @@ struct ReviewOptions {
     std::string title = {};
     SuiteChanges changes = {}; // with which the suites were read
     bool adds = false;         // what is accepted stands beside what other renderers drew
-    bool opens = false;        // in the desktop's browser, where there is a display
 };
 
 // Serves the report at an address of this machine that it prints, until Ctrl-C. The address holds a random

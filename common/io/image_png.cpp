@@ -5,6 +5,7 @@
 #include <bit>
 #include <csetjmp>
 #include <cstring>
+#include <new>
 #include <png.h>
 #include <zlib.h>
 
@@ -24,14 +25,17 @@ class Reader {
     Reader(std::string_view bytes, const std::string& name)
         : bytes_(bytes), name_(name),
           png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, &complaint_, keepComplaint, ignoreWarning)),
-          info_(png_create_info_struct(png_)) {
-        if (!readHeader())
-            throw fileError(name, "does not decode, fetch or export it again (" + complaint_ + ")");
-    }
+          info_(png_create_info_struct(png_)) {}
     ~Reader() { png_destroy_read_struct(&png_, &info_, nullptr); }
     Reader(const Reader&) = delete;
     Reader& operator=(const Reader&) = delete;
 
+    // First of all; the rest is of what it found.
+    void open() {
+        if (png_ == nullptr || info_ == nullptr) throw std::bad_alloc();
+        if (!readHeader())
+            throw fileError(name_, "does not decode, fetch or export it again (" + complaint_ + ")");
+    }
     int width() const { return static_cast<int>(png_get_image_width(png_, info_)); }
     int height() const { return static_cast<int>(png_get_image_height(png_, info_)); }
     int channels() const { return png_get_channels(png_, info_); }
@@ -53,6 +57,9 @@ class Reader {
     bool readHeader() {
         if (setjmp(png_jmpbuf(png_)) != 0) return false;
         png_set_read_fn(png_, this, give);
+        png_set_crc_action(png_, PNG_CRC_ERROR_QUIT,
+                           PNG_CRC_ERROR_QUIT); // of tRNS, too, or alpha would be lost
+        png_set_benign_errors(png_, 0);
         png_read_info(png_, info_);
         png_set_expand(png_); // a palette and fewer bits to eight, a transparent color to alpha
         if constexpr (std::endian::native == std::endian::little) png_set_swap(png_);
@@ -90,6 +97,7 @@ class Writer {
     Writer& operator=(const Writer&) = delete;
 
     std::vector<unsigned char> write(const Image& image, const std::string& name) {
+        if (png_ == nullptr || info_ == nullptr) throw std::bad_alloc();
         const auto& pixels = std::get<std::vector<std::uint8_t>>(image.pixels);
         const std::size_t row_bytes = pixels.size() / static_cast<std::size_t>(image.height);
         std::vector<png_const_bytep> rows;
@@ -144,6 +152,7 @@ class Writer {
 
 Image decodePng(CleanFile file, const std::string& name) {
     Reader reader(file.bytes, name);
+    reader.open();
     Image image;
     image.width = reader.width();
     image.height = reader.height();

@@ -105,7 +105,8 @@ void drawCompareBar(const Rectangle& place, float pixels_per_unit, Stage& stage,
     ImGui::SameLine();
     if (ImGui::Button("Off")) comparison.mode = Comparison::Mode::off;
     tooltip("C");
-    if (has_two_lines || ImGui::GetWindowWidth() > 42 * em) exchangeButtons(stage); // else X will do
+    const bool has_room = ImGui::GetWindowWidth() > 50 * em;
+    if (has_two_lines || has_room) exchangeButtons(stage); // else X will do
     if (has_two_lines) number(errorText(comparison, true));
     for (const auto mode : {Comparison::Mode::divider, Comparison::Mode::blink, Comparison::Mode::difference,
                             Comparison::Mode::flip}) {
@@ -120,7 +121,7 @@ void drawCompareBar(const Rectangle& place, float pixels_per_unit, Stage& stage,
                     ? "what is sent to the display, B less A, 16 times as much"
                     : "where the eye sees a difference when A and B alternate: black none, pale yellow most");
     }
-    if (!has_two_lines) number(errorText(comparison, false));
+    if (!has_two_lines) number(errorText(comparison, !has_room));
     if (shows_times) number(costText(stage, costs));
     ImGui::End();
     ImGui::PopStyleVar(2);

@@ -91,6 +91,9 @@ Suite Ladder::within(const Suite& suite, const fs::path& folder) const {
         fs::create_directories(folder / "bin");
         fs::copy_file(suite.program, there.program);
     }
+    const fs::path libraries = suite.program.parent_path().parent_path() / "lib";
+    if (fs::exists(libraries) && !fs::exists(folder / "lib"))
+        fs::create_directory_symlink(fs::canonical(libraries), folder / "lib");
     if (!fs::exists(folder / "assets"))
         fs::create_directory_symlink(fs::canonical(root_ / "assets"), folder / "assets");
     return there;

@@ -121,6 +121,10 @@ TEST(HostileImage, AProgressiveJpegOfAThousandScansIsNotGoneThrough) {
 TEST(HostileImage, APngThatNeedsAnUnknownChunkSaysWhich) {
     const TemporaryFolder folder;
     refuses(folder, png(1, 1, 8, 0, "\0\1"s, pngChunk("CgBI", "abcd")), {"'CgBI'"});
+    std::string transparent = pngChunk("tRNS", "\0\1"s);
+    EXPECT_EQ(loadImage(folder.write("a.png", png(1, 1, 8, 0, "\0\1"s, transparent))).channels, 2);
+    transparent.back() ^= 1; // its checksum: without it the picture would lose its alpha
+    refuses(folder, png(1, 1, 8, 0, "\0\1"s, transparent), {"does not decode", "CRC"});
     refuses(folder, png(1, 1, 8, 0, "\0\1"s, pngChunk("iCCP", std::string(100, 'x'))), {"'iCCP'"});
 }
 
