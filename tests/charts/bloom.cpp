@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-namespace gll::charts {
+namespace gll::charts::bloom {
 namespace {
 
 namespace fs = std::filesystem;
@@ -34,7 +34,7 @@ bool drawsBloom(const std::string& pass) {
 
 } // namespace
 
-void measureBloomCosts(const fs::path& programs, const fs::path& csv) {
+void measureCosts(const fs::path& programs, const fs::path& csv) {
     requireAllBloomFilters(programs);
     Table table{{"method", "cost_cu"}, {}};
     const std::vector<ComparedBloom> list = comparedBlooms();
@@ -69,7 +69,7 @@ void measureBloomCosts(const fs::path& programs, const fs::path& csv) {
     writeCsv(csv, table);
 }
 
-void drawBloomCharts(const fs::path& programs, const fs::path& costs_csv, const fs::path& folder) {
+void drawCharts(const fs::path& programs, const fs::path& costs_csv, const fs::path& folder) {
     requireAllBloomFilters(programs);
     const std::vector<ComparedBloom> list = comparedBlooms();
     const Costs costs(costs_csv);
@@ -183,4 +183,4 @@ void drawBloomCharts(const fs::path& programs, const fs::path& costs_csv, const 
     if (!missed.empty()) throw std::runtime_error("bloom: " + missed);
 }
 
-} // namespace gll::charts
+} // namespace gll::charts::bloom

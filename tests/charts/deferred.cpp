@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace gll::charts {
+namespace gll::charts::deferred {
 namespace {
 
 namespace fs = std::filesystem;
@@ -132,7 +132,7 @@ Set referenceSet() {
 
 } // namespace
 
-void measureDeferredCosts(const fs::path& programs, const fs::path& costs_csv) {
+void measureCosts(const fs::path& programs, const fs::path& costs_csv) {
     requirePreset(programs / rung_name);
     std::vector<Set> sets;
     Table table{{"method", "cost_cu"}, {}};
@@ -146,7 +146,7 @@ void measureDeferredCosts(const fs::path& programs, const fs::path& costs_csv) {
     writeCsv(costs_csv, table);
 }
 
-void drawDeferredCharts(const fs::path& programs, const fs::path& costs_csv, const fs::path& folder) {
+void drawCharts(const fs::path& programs, const fs::path& costs_csv, const fs::path& folder) {
     requirePreset(programs / rung_name);
     const Costs costs(costs_csv);
     const std::vector<Method> all = methods();
@@ -210,4 +210,4 @@ void drawDeferredCharts(const fs::path& programs, const fs::path& costs_csv, con
               points);
 }
 
-} // namespace gll::charts
+} // namespace gll::charts::deferred

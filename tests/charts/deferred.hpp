@@ -3,10 +3,10 @@
 
 #include <filesystem>
 
-namespace gll::charts {
+namespace gll::charts::deferred {
 
-void measureDeferredCosts(const std::filesystem::path& programs, const std::filesystem::path& costs_csv);
-void drawDeferredCharts(const std::filesystem::path& programs, const std::filesystem::path& costs_csv,
-                        const std::filesystem::path& folder);
+void measureCosts(const std::filesystem::path& programs, const std::filesystem::path& costs_csv);
+void drawCharts(const std::filesystem::path& programs, const std::filesystem::path& costs_csv,
+                const std::filesystem::path& folder);
 
-} // namespace gll::charts
+} // namespace gll::charts::deferred

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace gll::charts {
+namespace gll::charts::environment {
 namespace {
 
 namespace fs = std::filesystem;
@@ -90,7 +90,7 @@ double mapBytes(const Set& set) {
 
 } // namespace
 
-void measureEnvironmentCosts(const fs::path& programs, const fs::path& costs_csv) {
+void measureCosts(const fs::path& programs, const fs::path& costs_csv) {
     requireAll(programs);
     std::vector<Set> sets;
     Table table{{"method", "cost_cu"}, {}};
@@ -111,7 +111,7 @@ void measureEnvironmentCosts(const fs::path& programs, const fs::path& costs_csv
     writeCsv(costs_csv, table);
 }
 
-void drawEnvironmentCharts(const fs::path& programs, const fs::path& costs_csv, const fs::path& folder) {
+void drawCharts(const fs::path& programs, const fs::path& costs_csv, const fs::path& folder) {
     requireAll(programs);
     const Costs costs(costs_csv);
     const fs::path rung = programs / "09_environment_light";
@@ -305,4 +305,4 @@ void drawEnvironmentCharts(const fs::path& programs, const fs::path& costs_csv, 
     writeCsv(folder / "environment_brdf.csv", share_table);
 }
 
-} // namespace gll::charts
+} // namespace gll::charts::environment

@@ -3,13 +3,13 @@
 
 #include <filesystem>
 
-namespace gll::charts {
+namespace gll::charts::environment {
 
-void measureEnvironmentCosts(const std::filesystem::path& programs, const std::filesystem::path& costs_csv);
+void measureCosts(const std::filesystem::path& programs, const std::filesystem::path& costs_csv);
 
 // What each method costs and how far off it is, by roughness; samples against the error of what is stored;
 // tables against fits.
-void drawEnvironmentCharts(const std::filesystem::path& programs, const std::filesystem::path& costs_csv,
-                           const std::filesystem::path& folder);
+void drawCharts(const std::filesystem::path& programs, const std::filesystem::path& costs_csv,
+                const std::filesystem::path& folder);
 
-} // namespace gll::charts
+} // namespace gll::charts::environment

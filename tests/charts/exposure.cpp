@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace gll::charts {
+namespace gll::charts::exposure {
 namespace {
 
 namespace fs = std::filesystem;
@@ -341,7 +341,7 @@ struct Errors {
 
 } // namespace
 
-void measureExposureCosts(const fs::path& programs, const fs::path& costs_csv) {
+void measureCosts(const fs::path& programs, const fs::path& costs_csv) {
     const std::vector<Reduction> list = reductions(programs);
     std::vector<Set> sets;
     for (const Reduction& reduction : list) {
@@ -360,7 +360,7 @@ void measureExposureCosts(const fs::path& programs, const fs::path& costs_csv) {
     writeCsv(costs_csv, table);
 }
 
-void drawExposureCharts(const fs::path& programs, const fs::path& costs_csv, const fs::path& folder) {
+void drawCharts(const fs::path& programs, const fs::path& costs_csv, const fs::path& folder) {
     const Costs costs(costs_csv);
     const std::vector<Reduction> list = reductions(programs);
     const std::vector<glm::ivec2> sizes = frameSizes();
@@ -440,4 +440,4 @@ void drawExposureCharts(const fs::path& programs, const fs::path& costs_csv, con
     if (!missed.empty()) throw std::runtime_error("the recommended reduction misses its promise: " + missed);
 }
 
-} // namespace gll::charts
+} // namespace gll::charts::exposure

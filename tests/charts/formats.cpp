@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace gll::charts {
+namespace gll::charts::formats {
 namespace {
 
 namespace fs = std::filesystem;
@@ -50,7 +50,7 @@ ColorImage codes(ColorImage image) {
 
 } // namespace
 
-void measureFormatCosts(const fs::path& programs, const fs::path& costs_csv) {
+void measureCosts(const fs::path& programs, const fs::path& costs_csv) {
     requireAllFormats(programs);
     std::vector<Set> sets;
     for (const StorageFormat& format : formats)
@@ -62,7 +62,7 @@ void measureFormatCosts(const fs::path& programs, const fs::path& costs_csv) {
     writeCsv(costs_csv, table);
 }
 
-void drawFormatCharts(const fs::path& programs, const fs::path& costs_csv, const fs::path& folder) {
+void drawCharts(const fs::path& programs, const fs::path& costs_csv, const fs::path& folder) {
     requireAllFormats(programs);
     const Costs costs(costs_csv);
     Frames frames(programs / "01_hdr");
@@ -109,4 +109,4 @@ void drawFormatCharts(const fs::path& programs, const fs::path& costs_csv, const
     drawChart(folder / "formats_flip.svg", axes, flip);
 }
 
-} // namespace gll::charts
+} // namespace gll::charts::formats

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace gll::charts {
+namespace gll::charts::gbuffer {
 namespace {
 
 namespace fs = std::filesystem;
@@ -105,7 +105,7 @@ int bytesOf(Format format) {
 // Of a pixel, depth included, by the rung's own list of targets.
 int bytesOf(const Set& set) {
     Settings settings;
-    const gbuffer::GBufferOptions options(settings);
+    const gll::gbuffer::GBufferOptions options(settings);
     for (const auto& [name, value] : set)
         settings.set(name + "=" + value);
     int bytes = 0;
@@ -183,7 +183,7 @@ void drawNormals(const fs::path& programs, const fs::path& folder) {
 
 } // namespace
 
-void measureGbufferCosts(const fs::path& programs, const fs::path& costs_csv) {
+void measureCosts(const fs::path& programs, const fs::path& costs_csv) {
     std::vector<Set> sets;
     for (const Layout& layout : layouts)
         sets.push_back(layout.set);
@@ -194,7 +194,7 @@ void measureGbufferCosts(const fs::path& programs, const fs::path& costs_csv) {
     writeCsv(costs_csv, table);
 }
 
-void drawGbufferCharts(const fs::path& programs, const fs::path& costs_csv, const fs::path& folder) {
+void drawCharts(const fs::path& programs, const fs::path& costs_csv, const fs::path& folder) {
     test::requireCovered(programs / rung, "normals", test::valuesOf(layouts, "normals"),
                          {{"rgba16f", "the original's"}, {"rgba32f", "the reference"}});
     test::requireCovered(programs / rung, "albedo", test::valuesOf(layouts, "albedo"),
@@ -262,4 +262,4 @@ void drawGbufferCharts(const fs::path& programs, const fs::path& costs_csv, cons
     drawNormals(programs, folder);
 }
 
-} // namespace gll::charts
+} // namespace gll::charts::gbuffer

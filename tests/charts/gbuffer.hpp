@@ -3,13 +3,13 @@
 
 #include <filesystem>
 
-namespace gll::charts {
+namespace gll::charts::gbuffer {
 
 // Writes what a frame of each layout costs, counted by callgrind, into the table.
-void measureGbufferCosts(const std::filesystem::path& programs, const std::filesystem::path& costs_csv);
+void measureCosts(const std::filesystem::path& programs, const std::filesystem::path& costs_csv);
 
 // Writes gbuffer.csv, gbuffer_normals.csv and their charts into the folder.
-void drawGbufferCharts(const std::filesystem::path& programs, const std::filesystem::path& costs_csv,
-                       const std::filesystem::path& folder);
+void drawCharts(const std::filesystem::path& programs, const std::filesystem::path& costs_csv,
+                const std::filesystem::path& folder);
 
-} // namespace gll::charts
+} // namespace gll::charts::gbuffer

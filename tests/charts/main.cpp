@@ -27,14 +27,14 @@ struct Family {
 };
 
 const std::map<std::string, Family> families = {
-    {"bloom", {gll::charts::measureBloomCosts, gll::charts::drawBloomCharts}},
-    {"environment", {gll::charts::measureEnvironmentCosts, gll::charts::drawEnvironmentCharts}},
-    {"deferred", {gll::charts::measureDeferredCosts, gll::charts::drawDeferredCharts}},
-    {"exposure", {gll::charts::measureExposureCosts, gll::charts::drawExposureCharts}},
-    {"formats", {gll::charts::measureFormatCosts, gll::charts::drawFormatCharts}},
-    {"gbuffer", {gll::charts::measureGbufferCosts, gll::charts::drawGbufferCharts}},
-    {"shadow", {gll::charts::measureShadowCosts, gll::charts::drawShadowCharts}},
-    {"ssao", {gll::charts::measureSsaoCosts, gll::charts::drawSsaoCharts}},
+    {"bloom", {gll::charts::bloom::measureCosts, gll::charts::bloom::drawCharts}},
+    {"environment", {gll::charts::environment::measureCosts, gll::charts::environment::drawCharts}},
+    {"deferred", {gll::charts::deferred::measureCosts, gll::charts::deferred::drawCharts}},
+    {"exposure", {gll::charts::exposure::measureCosts, gll::charts::exposure::drawCharts}},
+    {"formats", {gll::charts::formats::measureCosts, gll::charts::formats::drawCharts}},
+    {"gbuffer", {gll::charts::gbuffer::measureCosts, gll::charts::gbuffer::drawCharts}},
+    {"shadow", {gll::charts::shadow::measureCosts, gll::charts::shadow::drawCharts}},
+    {"ssao", {gll::charts::ssao::measureCosts, gll::charts::ssao::drawCharts}},
     {"tone", {gll::charts::measureToneCosts, gll::charts::drawToneCharts}}};
 
 // The family's charts and tables in a folder; costs are measured, not drawn.

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace gll::charts {
+namespace gll::charts::shadow {
 namespace {
 
 namespace fs = std::filesystem;
@@ -74,7 +74,7 @@ Set joined(Set one, const Set& other) {
 
 } // namespace
 
-void measureShadowCosts(const fs::path& programs, const fs::path& costs_csv) {
+void measureCosts(const fs::path& programs, const fs::path& costs_csv) {
     requireAll(programs);
     std::vector<Set> sets;
     Table table{{"method", "cost_cu"}, {}};
@@ -98,7 +98,7 @@ void measureShadowCosts(const fs::path& programs, const fs::path& costs_csv) {
     writeCsv(costs_csv, table);
 }
 
-void drawShadowCharts(const fs::path& programs, const fs::path& costs_csv, const fs::path& folder) {
+void drawCharts(const fs::path& programs, const fs::path& costs_csv, const fs::path& folder) {
     requireAll(programs);
     const Costs costs(costs_csv);
     const auto scene = truth::plotRays();
@@ -212,4 +212,4 @@ void drawShadowCharts(const fs::path& programs, const fs::path& costs_csv, const
         points);
 }
 
-} // namespace gll::charts
+} // namespace gll::charts::shadow

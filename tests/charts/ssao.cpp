@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace gll::charts {
+namespace gll::charts::ssao {
 namespace {
 
 namespace fs = std::filesystem;
@@ -212,7 +212,7 @@ std::string markOf(const Method& method, const std::string& samples) {
 
 } // namespace
 
-void measureSsaoCosts(const fs::path& programs, const fs::path& costs_csv) {
+void measureCosts(const fs::path& programs, const fs::path& costs_csv) {
     requireAll(programs);
     const fs::path rung = programs / rung_name;
     Table table{{"method", "cost_cu", "set"}, {}};
@@ -240,7 +240,7 @@ void measureSsaoCosts(const fs::path& programs, const fs::path& costs_csv) {
     writeCsv(costs_csv, table);
 }
 
-void drawSsaoCharts(const fs::path& programs, const fs::path& costs_csv, const fs::path& folder) {
+void drawCharts(const fs::path& programs, const fs::path& costs_csv, const fs::path& folder) {
     requireAll(programs);
     const Costs costs(costs_csv);
     const Table measured = readCsv(costs_csv);
@@ -318,4 +318,4 @@ void drawSsaoCharts(const fs::path& programs, const fs::path& costs_csv, const f
     drawChart(folder / "ssao_room.svg", axes, room);
 }
 
-} // namespace gll::charts
+} // namespace gll::charts::ssao

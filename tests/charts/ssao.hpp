@@ -3,12 +3,12 @@
 
 #include <filesystem>
 
-namespace gll::charts {
+namespace gll::charts::ssao {
 
 // Also seeks, for each method, the strength, exponent, radius, bias and number of slices with which it comes
 // closest to rays, so that none is judged by constants that suit another.
-void measureSsaoCosts(const std::filesystem::path& programs, const std::filesystem::path& costs_csv);
-void drawSsaoCharts(const std::filesystem::path& programs, const std::filesystem::path& costs_csv,
-                    const std::filesystem::path& folder);
+void measureCosts(const std::filesystem::path& programs, const std::filesystem::path& costs_csv);
+void drawCharts(const std::filesystem::path& programs, const std::filesystem::path& costs_csv,
+                const std::filesystem::path& folder);
 
-} // namespace gll::charts
+} // namespace gll::charts::ssao

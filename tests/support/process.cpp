@@ -5,6 +5,10 @@
 
 namespace gll::test {
 
+std::filesystem::path program(const std::string& name) {
+    return std::filesystem::path(GLLADDER_PROGRAMS) / name;
+}
+
 Result run(const Command& command, std::chrono::milliseconds limit) { return Process(command).wait(limit); }
 
 Result runToSuccess(const Command& command, std::chrono::milliseconds limit) {

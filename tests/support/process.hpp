@@ -9,6 +9,9 @@ using gll::Command;
 using gll::Process;
 using Result = gll::ProcessResult;
 
+// One of the programs built here: a rung, frame_check, frame_error.
+std::filesystem::path program(const std::string& name);
+
 Result run(const Command& command, std::chrono::milliseconds limit = std::chrono::seconds(60));
 
 // Throws std::runtime_error saying how it ended, and its last line on stderr, unless that was with 0.

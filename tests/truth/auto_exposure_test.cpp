@@ -22,8 +22,6 @@ namespace {
 
 using namespace auto_exposure;
 
-std::filesystem::path rung_program;
-
 // The rung's own frames and readings, all from one batch.
 class RungTest : public testing::Test {
   protected:
@@ -42,7 +40,8 @@ class RungTest : public testing::Test {
         for (const int frame : {60, 180, 2, 961, 1140, 999'999, 999'999 - 960, 60, 1, 180})
             all.push_back({"again " + std::to_string(all.size()) + " " + std::to_string(frame), frame});
         for (const char* size : {"101x77", "64x48"})
-            for (const std::string& reduction : test::choicesOf(rung_program, "reduction"))
+            for (const std::string& reduction :
+                 test::choicesOf(test::program("02_auto_exposure"), "reduction"))
                 all.push_back({std::string(size) + " " + reduction, 60, size, {{"reduction", reduction}}});
         all.push_back({"hdr", 60, "101x77", {}, "hdr"});
         for (const char* pattern : {"black", "flat", "checkerboard", "one_hot", "ramp"})
@@ -68,7 +67,7 @@ class RungTest : public testing::Test {
             lines += line.dump() + "\n";
         }
         const auto result = test::runToSuccess(
-            {rung_program,
+            {test::program("02_auto_exposure"),
              {"--headless", "--json", "--batch", folder->write("batch.jsonl", lines).string()}});
         std::istringstream out(result.out);
         std::string line;
@@ -132,8 +131,9 @@ TEST_F(RungTest, aFrameIsTheSameHoweverOneComesToIt) {
     same("again 61 180", "again 69 180");
     same("again 65 999999", "again 66 999039"); // a round of the walk apart, both with a full history
     EXPECT_NE(readings.at("again 60 60"), readings.at("again 61 180"));
-    const auto alone = test::runToSuccess(
-        {rung_program, {"--headless", "--json", "--readings", "--size", "64x48", "--frame", "180"}});
+    const auto alone =
+        test::runToSuccess({test::program("02_auto_exposure"),
+                            {"--headless", "--json", "--readings", "--size", "64x48", "--frame", "180"}});
     EXPECT_EQ(nlohmann::json::parse(alone.out).at("readings"), readings.at("again 61 180"));
 }
 
@@ -182,13 +182,3 @@ TEST_F(RungTest, thePresentedFrameIsTheSceneExposedToneMappedAndEncoded) {
 
 } // namespace
 } // namespace gll::truth
-
-int main(int argc, char** argv) {
-    testing::InitGoogleTest(&argc, argv);
-    if (argc != 2) {
-        std::fprintf(stderr, "truth_auto_exposure: error: name the program of 02_auto_exposure\n");
-        return 2;
-    }
-    gll::truth::rung_program = argv[1];
-    return RUN_ALL_TESTS();
-}

@@ -2,6 +2,7 @@
 // floats each of them read: bright pass, every filter down and up, the whole chain, and the presented frame.
 #include "01_hdr/tone_map.hpp"
 #include "bloom_reference.hpp"
+#include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 #include "tone_reference.hpp"
 
@@ -10,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <map>
 
-namespace gll::truth {
+namespace gll::truth::bloom_frames {
 namespace {
 
 namespace fs = std::filesystem;
@@ -122,11 +123,9 @@ class Frames {
     test::TemporaryFolder folder_;
 };
 
-fs::path rung_program;
-
 class BloomTruth : public testing::Test {
   protected:
-    static void SetUpTestSuite() { frames = std::make_unique<Frames>(rung_program); }
+    static void SetUpTestSuite() { frames = std::make_unique<Frames>(test::program("05_hdr_bloom")); }
     static void TearDownTestSuite() { frames.reset(); }
     static Plane read(const std::string& name) { return frames->read(name); }
 
@@ -285,14 +284,4 @@ TEST_F(BloomTruth, thePresentedFrameIsSceneAndBloomToneMappedAndEncoded) {
 }
 
 } // namespace
-} // namespace gll::truth
-
-int main(int argc, char** argv) {
-    testing::InitGoogleTest(&argc, argv);
-    if (argc != 2) {
-        std::fprintf(stderr, "truth_bloom: error: name the program of 05_hdr_bloom\n");
-        return 2;
-    }
-    gll::truth::rung_program = argv[1];
-    return RUN_ALL_TESTS();
-}
+} // namespace gll::truth::bloom_frames

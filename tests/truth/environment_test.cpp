@@ -2,6 +2,8 @@
 // a glossy surface adds two errors of different kinds, and a furnace in which nothing may be lost. A new
 // method: ask for its frames and hold what EnvironmentError says of them to a bound.
 #include "charts/frames.hpp"
+#include "rung/resources.hpp"
+#include "support/process.hpp"
 #include "truth/environment_reference.hpp"
 
 #include "09_environment_light/brdf_table.hpp"
@@ -19,8 +21,8 @@ namespace {
 
 using charts::Set;
 
-std::filesystem::path rung;
-std::filesystem::path sky_file;
+// What rungs show where no other is named.
+std::filesystem::path skyFile() { return Resources().find("assets/sky/sky.hdr"); }
 constexpr glm::ivec2 size(320, 240);
 constexpr std::size_t ball_count = std::size(environment_light::ball_roughnesses);
 
@@ -85,7 +87,7 @@ TEST(EnvironmentLight, isLostInRoughMetalByAsMuchAsIsKnown) {
 }
 
 TEST(EnvironmentLight, isAllGivenBackInAFurnaceToHalfAPercent) {
-    charts::Frames frames(rung);
+    charts::Frames frames(program("09_environment_light"));
     const Set furnace = with(in_map, {{"sky", "furnace"}, {"environment_diffuse", "sh9"}});
     const char* const energies[] = {"fdez_aguera", "turquin", "none"};
     for (const char* energy : energies)
@@ -108,7 +110,7 @@ TEST(EnvironmentLight, isAllGivenBackInAFurnaceToHalfAPercent) {
 // Frames of the rung under the sky, with its sun or without, against what is expected at the pixels of each
 // ball.
 struct UnderTheSky {
-    explicit UnderTheSky(bool with_sun) : reference(loadImage(sky_file)) {
+    explicit UnderTheSky(bool with_sun) : reference(loadImage(skyFile())) {
         if (with_sun) return;
         const Image cut = reference.cutAt(8);
         saveImage(folder / "sky.exr", cut);
@@ -120,7 +122,7 @@ struct UnderTheSky {
     // By settings, then by ball from the first on.
     std::vector<std::vector<truth::EnvironmentError>>
     errors(const std::vector<Set>& sets, const Expected& expected, std::size_t first_ball = 0) const {
-        charts::Frames frames(rung, arguments);
+        charts::Frames frames(program("09_environment_light"), arguments);
         for (const Set& set : sets)
             frames.ask(set, size, "hdr");
         frames.run();
@@ -203,7 +205,7 @@ TEST(EnvironmentLight, ofASunAloneIsWhatADoubleSays) {
     const std::optional<Sun> sun =
         withoutSun(radianceMap(loadImage(folder / "sun.exr"), folder / "sun.exr", warnings)).sun;
     ASSERT_TRUE(sun);
-    charts::Frames frames(rung, {"--environment", (folder / "sun.exr").string()});
+    charts::Frames frames(program("09_environment_light"), {"--environment", (folder / "sun.exr").string()});
     frames.ask(as_light, size, "hdr");
     frames.run();
     const measure::ColorImage frame = frames.read(0);
@@ -233,7 +235,7 @@ TEST(EnvironmentLight, ofASunAloneIsWhatADoubleSays) {
 TEST(EnvironmentLight, ofASkyWithoutASunIsTheSameWhetherOneIsTakenOutOrNot) {
     const UnderTheSky sky(false);
     const Set radiance = with(as_light, {{"view", "radiance"}});
-    charts::Frames frames(rung, sky.arguments);
+    charts::Frames frames(program("09_environment_light"), sky.arguments);
     frames.ask(radiance, size, "hdr");
     frames.ask(with(radiance, {{"environment_sun", "off"}}), size, "hdr");
     frames.run();
@@ -246,7 +248,7 @@ TEST(EnvironmentLight, ofASkyWithoutASunIsTheSameWhetherOneIsTakenOutOrNot) {
 TEST(EnvironmentLight, onMattSurfacesIsExactOnceTheSunIsALight) {
     const UnderTheSky sky(true);
     const char* const methods[] = {"raw", "mip", "sh9", "sh9_sun"};
-    charts::Frames frames(rung);
+    charts::Frames frames(program("09_environment_light"));
     for (const char* method : methods)
         for (const char* yaw : {"0", "180"})
             frames.ask({{"environment_diffuse", method}, {"view", "irradiance"}, {"camera_yaw_deg", yaw}},
@@ -273,7 +275,7 @@ TEST(EnvironmentLight, onMattSurfacesIsExactOnceTheSunIsALight) {
 TEST(EnvironmentLight, isReadyInAThirdOfASecond) {
     using namespace environment_light;
     Warnings warnings;
-    const RadianceMap map = radianceMap(loadImage(sky_file), sky_file, warnings);
+    const RadianceMap map = radianceMap(loadImage(skyFile()), skyFile(), warnings);
     for (const std::string layout : {"equirectangular", "cube", "octahedral"}) {
         const std::clock_t start = std::clock();
         const auto lap = [&, last = start](const char* what) mutable {
@@ -319,7 +321,8 @@ TEST(EnvironmentLight, mayComeFromAPictureOfAnySize) {
         Image image{.width = extent.x, .height = extent.y, .channels = 3, .pixels = {}};
         image.pixels = std::vector<float>(static_cast<std::size_t>(extent.x * extent.y) * 3, 0.5F);
         saveImage(folder / "sky.exr", image);
-        charts::Frames frames(rung, {"--environment", (folder / "sky.exr").string()});
+        charts::Frames frames(program("09_environment_light"),
+                              {"--environment", (folder / "sky.exr").string()});
         const Set sets[] = {{{"environment_diffuse", "mip"}, {"view", "irradiance"}},
                             {{"environment_diffuse", "sh9_sun"}, {"view", "irradiance"}},
                             with(as_light, {{"view", "radiance"}}),
@@ -336,11 +339,3 @@ TEST(EnvironmentLight, mayComeFromAPictureOfAnySize) {
 
 } // namespace
 } // namespace gll::test
-
-int main(int argc, char** argv) {
-    testing::InitGoogleTest(&argc, argv);
-    if (argc < 3) return 2;
-    gll::test::rung = argv[1];
-    gll::test::sky_file = argv[2];
-    return RUN_ALL_TESTS();
-}

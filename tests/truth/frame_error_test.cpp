@@ -49,8 +49,9 @@ Image light(float factor) {
 class FrameError : public testing::Test {
   protected:
     test::Result run(std::vector<std::string> arguments) const {
-        return test::runToSuccess(
-            {.program = FRAME_ERROR, .arguments = std::move(arguments), .folder = folder.path()});
+        return test::runToSuccess({.program = test::program("frame_error"),
+                                   .arguments = std::move(arguments),
+                                   .folder = folder.path()});
     }
     nlohmann::json measured(const std::string& one, const std::string& other) const {
         return nlohmann::json::parse(run({one, other, "--json"}).out);

@@ -6,6 +6,7 @@
 #include "rung/context.hpp"
 #include "rung/resources.hpp"
 #include "support/choices.hpp"
+#include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 #include "tone_reference.hpp"
 
@@ -15,7 +16,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-namespace gll::truth {
+namespace gll::truth::gaussian_bloom_frames {
 namespace {
 
 using namespace gaussian_bloom;
@@ -147,10 +148,8 @@ TEST_F(BlurPasses, ofTheMipmapAreTheMeanOfFour) {
 
 // ---- the rung's own frames ----
 
-fs::path rung_program;
-
 TEST(BlurPlans, areThereForEveryBlurThatTheRungOffers) {
-    test::requireCovered(rung_program, "blur", {std::begin(methods), std::end(methods)},
+    test::requireCovered(test::program("03_gaussian_bloom"), "blur", {std::begin(methods), std::end(methods)},
                          {{"mipmap", "has one width, and a test of its own"}});
 }
 
@@ -270,8 +269,8 @@ class GaussianBloomFrames : public testing::Test {
         for (const std::string value : {"nan", "inf"})
             ask(value + ".png", R"("set": {"guard": "off"}, "inject": "bright:160,120:)" + value + "\"");
         const fs::path file = folder->write("batch.jsonl", batch);
-        const std::string command =
-            "'" + rung_program.string() + "' --headless --batch '" + file.string() + "' > /dev/null";
+        const std::string command = "'" + test::program("03_gaussian_bloom").string() +
+                                    "' --headless --batch '" + file.string() + "' > /dev/null";
         if (std::system(command.c_str()) != 0) throw std::runtime_error("failed: " + command);
     }
     static void TearDownTestSuite() { folder.reset(); }
@@ -431,14 +430,4 @@ TEST_F(GaussianBloomFrames, withABadPixelInTheBlurAreWrongNoFurtherThanItsTapsRe
 }
 
 } // namespace
-} // namespace gll::truth
-
-int main(int argc, char** argv) {
-    testing::InitGoogleTest(&argc, argv);
-    if (argc != 2) {
-        std::fprintf(stderr, "truth_gaussian_bloom: error: name the program of 03_gaussian_bloom\n");
-        return 2;
-    }
-    gll::truth::rung_program = argv[1];
-    return RUN_ALL_TESTS();
-}
+} // namespace gll::truth::gaussian_bloom_frames

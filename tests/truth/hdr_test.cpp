@@ -12,13 +12,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace gll::truth {
+namespace gll::truth::hdr_frames {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-fs::path rung_program;
 constexpr int width = 160;
 constexpr int height = 120;
 
@@ -37,7 +36,7 @@ class HdrTruth : public testing::Test {
             lines += line.dump() + "\n";
         };
         const Json none = Json::array();
-        for (const std::string& format : test::choicesOf(rung_program, "format"))
+        for (const std::string& format : test::choicesOf(test::program("01_hdr"), "format"))
             ask(format + ".exr", {{"format", format}, {"brightness", 3}}, "hdr", none);
         for (const std::string tone_map : hdr::tone_maps) {
             ask(tone_map + ".png", {{"tone_map", tone_map}, {"format", "rgba32f"}, {"brightness", 3}}, "",
@@ -54,8 +53,8 @@ class HdrTruth : public testing::Test {
              {"view", "stops"},
              {"encode", "srgb"}},
             "", none);
-        test::runToSuccess(
-            {rung_program, {"--headless", "--batch", folder->write("batch.jsonl", lines).string()}});
+        test::runToSuccess({test::program("01_hdr"),
+                            {"--headless", "--batch", folder->write("batch.jsonl", lines).string()}});
     }
     static void TearDownTestSuite() { folder.reset(); }
 
@@ -113,7 +112,8 @@ TEST_F(HdrTruth, fixedPointClampsAndFloatsKeepTheirShareOfEveryValue) {
     check("rgb10_a2", 1, 1.01 / 1023, 1);
     check("r11f_g11f_b10f", 65024, 65504, 1.01 / 32);
     check("rgba16f", 65504, 65504, 1.01 / 1024);
-    test::requireCovered(rung_program, "format", {"rgba8", "rgb10_a2", "r11f_g11f_b10f", "rgba16f"},
+    test::requireCovered(test::program("01_hdr"), "format",
+                         {"rgba8", "rgb10_a2", "r11f_g11f_b10f", "rgba16f"},
                          {{"rgba32f", "what the others are compared with"}});
 }
 
@@ -153,7 +153,7 @@ TEST_F(HdrTruth, aPixelThatIsNoNumberOrInfiniteStaysOnePixelAndBecomesItsLimit) 
 
 TEST_F(HdrTruth, aPictureOfOnesOwnIsDrawnAsItIsAndLargerOrSmallerAboutItsMiddle) {
     const auto render = [&](const char* size, const char* file) {
-        test::runToSuccess({rung_program,
+        test::runToSuccess({test::program("01_hdr"),
                             {"--image", (*folder / "rgba16f.exr").string(), "--target", "hdr", "--size", size,
                              "--out", (*folder / file).string()}});
         return loadImage(*folder / file);
@@ -203,14 +203,4 @@ TEST_F(HdrTruth, falseColoursAreBandsOfAStopAndStripesWhereTheDisplayEnds) {
 }
 
 } // namespace
-} // namespace gll::truth
-
-int main(int argc, char** argv) {
-    testing::InitGoogleTest(&argc, argv);
-    if (argc != 2) {
-        std::fprintf(stderr, "truth_hdr: error: name the program of 01_hdr\n");
-        return 2;
-    }
-    gll::truth::rung_program = argv[1];
-    return RUN_ALL_TESTS();
-}
+} // namespace gll::truth::hdr_frames

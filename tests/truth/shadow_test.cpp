@@ -1,6 +1,7 @@
 // 07_shadow_map against rays: the sun's view, and the bias that needs no number chosen for the scene.
 // A new case: ask for its frames in Plot::errors(), which shoots rays at the same triangles.
 #include "charts/frames.hpp"
+#include "support/process.hpp"
 #include "truth/shadow_plot.hpp"
 
 #include <cmath>
@@ -9,8 +10,6 @@
 
 namespace gll::test {
 namespace {
-
-std::filesystem::path rung;
 
 TEST(RayScene, findsTheNearestTriangleAndNothingBeside) {
     const std::vector<glm::vec3> corners = {{0, 0, 2}, {1, 0, 2}, {0, 1, 2}, {0, 0, 3}, {1, 0, 3}, {0, 1, 3}};
@@ -27,7 +26,7 @@ struct Plot {
     // Of the rung with these settings, the sun at these elevations, in a map of 512 texels.
     truth::ShadowErrors errors(const charts::Set& set, int filter_width,
                                const std::vector<int>& elevations_deg) const {
-        charts::Frames frames(rung);
+        charts::Frames frames(program("07_shadow_map"));
         for (const int elevation : elevations_deg) {
             charts::Set all = set;
             all.insert({{"scene", "plot"},
@@ -68,10 +67,3 @@ TEST(Shadow, looksAlongTheLightThatShadesAndAsPrintedDoesNot) {
 
 } // namespace
 } // namespace gll::test
-
-int main(int argc, char** argv) {
-    testing::InitGoogleTest(&argc, argv);
-    if (argc < 2) return 2;
-    gll::test::rung = argv[1];
-    return RUN_ALL_TESTS();
-}

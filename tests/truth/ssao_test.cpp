@@ -1,6 +1,7 @@
 // 08_ssao against rays, and the rays against what is known exactly.
 // A new case: ask OcclusionFrames for its settings; errors() compares them with rays at the same triangles.
 #include "charts/occlusion_frames.hpp"
+#include "support/process.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,6 @@ using charts::OcclusionFrames;
 using charts::Set;
 using truth::OcclusionErrors;
 
-std::filesystem::path rung;
 constexpr glm::ivec2 size{160, 120};
 constexpr int rays = 100;
 
@@ -56,7 +56,7 @@ TEST(Rays, inACornerFindTheLightThatGeometrySays) {
 }
 
 TEST(Rays, areTheSameFromTheScreenAsFromTheTrianglesWhereAllIsSeen) {
-    OcclusionFrames frames(rung, {{.scene = "corner"}}, size);
+    OcclusionFrames frames(program("08_ssao"), {{.scene = "corner"}}, size);
     frames.ask({{"ssao", "off"}});
     frames.run(400);
     const truth::TrueOcclusion& truth = frames.views()[0].truth;
@@ -68,7 +68,7 @@ TEST(Rays, areTheSameFromTheScreenAsFromTheTrianglesWhereAllIsSeen) {
 }
 
 TEST(Ssao, ofEveryMethodFindsOnlyWhatIsThere) {
-    OcclusionFrames frames(rung, {{.scene = "corner"}}, size);
+    OcclusionFrames frames(program("08_ssao"), {{.scene = "corner"}}, size);
     for (const Set& method : methods)
         frames.ask(with(recommended, method));
     frames.run(rays);
@@ -84,7 +84,7 @@ TEST(Ssao, ofEveryMethodFindsOnlyWhatIsThere) {
 }
 
 TEST(Ssao, byHorizonsAndBySectorsComesToWhatIsExactInACorner) {
-    OcclusionFrames frames(rung, {{.scene = "corner"}}, size);
+    OcclusionFrames frames(program("08_ssao"), {{.scene = "corner"}}, size);
     for (const char* method : {"gtao", "bitmask"})
         frames.ask(
             with(recommended,
@@ -99,7 +99,8 @@ TEST(Ssao, byHorizonsAndBySectorsComesToWhatIsExactInACorner) {
 }
 
 TEST(Ssao, recommendedIsCloseToRaysAndHalfAsFarOffAsAHemisphereOf64) {
-    OcclusionFrames frames(rung, {{.scene = "cat"}, {.scene = "cat", .frame = 180}}, {320, 240});
+    OcclusionFrames frames(program("08_ssao"), {{.scene = "cat"}, {.scene = "cat", .frame = 180}},
+                           {320, 240});
     frames.ask(recommended);
     frames.ask(with(recommended, {{"ssao", "hemisphere"}, {"ssao_samples", "64"}, {"ssao_strength", "1"}}));
     frames.ask(with(recommended, {{"ssao_normals", "mapped"}}));
@@ -114,7 +115,7 @@ TEST(Ssao, recommendedIsCloseToRaysAndHalfAsFarOffAsAHemisphereOf64) {
 }
 
 TEST(Ssao, getsBetterByTheTap) {
-    OcclusionFrames frames(rung, {{.scene = "cat"}, {.scene = "room"}}, size);
+    OcclusionFrames frames(program("08_ssao"), {{.scene = "cat"}, {.scene = "room"}}, size);
     for (const char* samples : {"4", "8", "16", "64"})
         frames.ask(with(recommended, {{"ssao_samples", samples}}));
     frames.run(rays);
@@ -123,7 +124,7 @@ TEST(Ssao, getsBetterByTheTap) {
 }
 
 TEST(Ssao, toldFromDepthAloneFindsTheNormalsOfTheTriangles) {
-    OcclusionFrames frames(rung, {{.scene = "room"}}, size);
+    OcclusionFrames frames(program("08_ssao"), {{.scene = "room"}}, size);
     frames.ask(recommended);
     frames.ask(with(recommended, {{"ssao_normals", "depth"}}));
     frames.run(rays);
@@ -132,10 +133,3 @@ TEST(Ssao, toldFromDepthAloneFindsTheNormalsOfTheTriangles) {
 
 } // namespace
 } // namespace gll::test
-
-int main(int argc, char** argv) {
-    testing::InitGoogleTest(&argc, argv);
-    if (argc < 2) return 2;
-    gll::test::rung = argv[1];
-    return RUN_ALL_TESTS();
-}

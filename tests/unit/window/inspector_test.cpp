@@ -7,7 +7,7 @@
 namespace gll::test {
 namespace {
 
-constexpr int side = 8; // pixels
+constexpr int side_px = 8;
 
 // Draws a target of half floats, overwrites some of its pixels, and then draws over it in a second pass.
 class TargetRung final : public Rung {
@@ -28,7 +28,7 @@ class TargetRung final : public Rung {
                     .depth_test = DepthTest::less,
                     .clear_depth = 1.0F});
     }
-    Framebuffer target_{{{.name = "hdr"}, {.name = "depth", .format = Format::depth24}}, {side, side}};
+    Framebuffer target_{{{.name = "hdr"}, {.name = "depth", .format = Format::depth24}}, {side_px, side_px}};
     Program program_ = makeProgram(full_screen_vertex, flat_fragment);
 };
 
@@ -57,10 +57,10 @@ class InspectorTest : public GlTest {
         for (int i = 0; i < 2; ++i) { // the first makes room for the thumbnails
             inspector.begin(renderer, {4, 4});
             Spoiler spoiler(inspector);
-            renderer.render(1, {side, side}, &spoiler);
+            renderer.render(1, {side_px, side_px}, &spoiler);
             inspector.end();
         }
-        inspector.look(renderer, {{0, 0}, {side, side}}, {0, 0});
+        inspector.look(renderer, {{0, 0}, {side_px, side_px}}, {0, 0});
     }
     glm::vec3 pixel(int x, int y) const { return glm::vec3(pixelOf(inspector.looked().color(), x, y)); }
 
@@ -101,13 +101,13 @@ TEST_F(InspectorTest, aTargetThatIsNotDrawnIsNotLookedInto) {
 
 TEST_F(InspectorTest, aPixelIsReadWhereTheCursorIs) {
     look({"first", "hdr"});
-    inspector.look(renderer, {{0, 0}, {side, side}}, {1.5, 6.5}); // from the top left
+    inspector.look(renderer, {{0, 0}, {side_px, side_px}}, {1.5, 6.5}); // from the top left
     EXPECT_TRUE(inspector.probe("frame", renderer.presented(), std::nullopt).starts_with("hdr 1,6:  nan"))
         << inspector.probe("frame", renderer.presented(), std::nullopt);
-    inspector.look(renderer, {{0, 0}, {side, side}}, {100, 100});
+    inspector.look(renderer, {{0, 0}, {side_px, side_px}}, {100, 100});
     EXPECT_EQ(inspector.probe("frame", renderer.presented(), std::nullopt), "");
     inspector.select(std::nullopt);
-    const std::string picture = inspector.probe("frame", renderer.presented(), glm::ivec2(0, side - 1));
+    const std::string picture = inspector.probe("frame", renderer.presented(), glm::ivec2(0, side_px - 1));
     EXPECT_TRUE(picture.starts_with("frame 0,0:  0.50196")) << picture;
     EXPECT_EQ(inspector.probe("frame", renderer.presented(), std::nullopt), "");
 }
@@ -116,11 +116,11 @@ TEST_F(InspectorTest, zoomKeepsWhatIsUnderTheCursor) {
     look({"first", "hdr"});
     const glm::dvec2 cursor(1.5, 6.5); // over the pixel that is no number
     inspector.zoom(5, cursor);
-    inspector.look(renderer, {{0, 0}, {side, side}}, cursor);
+    inspector.look(renderer, {{0, 0}, {side_px, side_px}}, cursor);
     EXPECT_EQ(pixel(1, 1), glm::vec3(1, 0, 1));
     EXPECT_EQ(pixel(2, 2), glm::vec3(1, 0, 1)); // three times as large now
     inspector.drag({3, 0});
-    inspector.look(renderer, {{0, 0}, {side, side}}, cursor);
+    inspector.look(renderer, {{0, 0}, {side_px, side_px}}, cursor);
     EXPECT_EQ(pixel(4, 1), glm::vec3(1, 0, 1)); // moved along to the right
     EXPECT_NE(pixel(1, 1), glm::vec3(1, 0, 1));
 }
