@@ -128,21 +128,24 @@ vec2 unpackSpecular(float packed_specular) {
 #if IS_PACKED
 // excerpt: pack_surface
 // All but the position in four channels of 16 bits, as two words of 32:
-//   albedo, the square root of each channel: 9 9 9; specular intensity: 5 of 7     bits 0 to 31
-//   normal, octahedral: 11 11; specular intensity: 2 of 7; logarithm of gloss: 8   bits 0 to 31
-// Nine bits of albedo, as eight show bands where the sun is bright.
-uint codeOf(float value, float steps) { return uint(clamp(value, 0.0, 1.0) * steps + 0.5); }
-float valueOf(uint word, int shift, uint steps) { return float((word >> shift) & steps) / float(steps); }
+//   albedo, the square root of red and green: 362 codes each in 17 bits; logarithm of gloss: 8;
+//   square root of the specular intensity: 7                                                     bits 0 to 31
+//   normal, octahedral: 2896 codes each in 23 bits; albedo, the square root of blue: 9           bits 0 to 31
+// Eight bits of albedo show bands where the sun is bright. Two numbers that share an odd number of bits have half a bit
+// each of the odd one: 362 * 362 codes fill 17 bits, and 2896 * 2896 fill 23.
+uint codeOf(float value, float codes) { return uint(clamp(value, 0.0, 1.0) * (codes - 1.0) + 0.5); }
+float valueOf(uint code, float codes) { return float(code) / (codes - 1.0); }
+uint pairOf(vec2 values, float codes) { return codeOf(values.x, codes) + uint(codes) * codeOf(values.y, codes); }
+vec2 valuesOf(uint pair, float codes) {
+    uint upper = pair / uint(codes);
+    return vec2(valueOf(pair - upper * uint(codes), codes), valueOf(upper, codes));
+}
 
 vec4 packSurface(vec3 albedo, float specular, vec3 normal, float shininess) {
     vec3 root = sqrt(albedo);
-    uint specular_code = codeOf(specular / max_specular, 127.0);
-    uint gloss_code = codeOf(log2(shininess) / log2_max_shininess, 255.0);
-    vec2 octahedral = nearestOctahedral(normal, 2047.0);
-    uint first = codeOf(root.r, 511.0) | codeOf(root.g, 511.0) << 9 | codeOf(root.b, 511.0) << 18 |
-                 (specular_code & 31u) << 27;
-    uint second = codeOf(octahedral.x, 2047.0) | codeOf(octahedral.y, 2047.0) << 11 | (specular_code >> 5) << 22 |
-                  gloss_code << 24;
+    uint first = pairOf(root.rg, 362.0) | codeOf(log2(shininess) / log2_max_shininess, 256.0) << 17 |
+                 codeOf(sqrt(specular / max_specular), 128.0) << 25;
+    uint second = pairOf(nearestOctahedral(normal, 2895.0), 2896.0) | codeOf(root.b, 512.0) << 23;
     return vec4(first & 65535u, first >> 16, second & 65535u, second >> 16) / 65535.0;
 }
 
@@ -152,15 +155,14 @@ uvec2 wordsOf(vec4 stored) {
 }
 
 vec3 packedAlbedo(uvec2 words) {
-    vec3 root = vec3(valueOf(words.x, 0, 511u), valueOf(words.x, 9, 511u), valueOf(words.x, 18, 511u));
+    vec3 root = vec3(valuesOf(words.x & 131071u, 362.0), valueOf(words.y >> 23, 512.0));
     return root * root;
 }
-vec3 packedNormal(uvec2 words) {
-    return directionFromOctahedral(vec2(valueOf(words.y, 0, 2047u), valueOf(words.y, 11, 2047u)));
-}
+vec3 packedNormal(uvec2 words) { return directionFromOctahedral(valuesOf(words.y & 8388607u, 2896.0)); }
 float packedSpecular(uvec2 words) {
-    return float(words.x >> 27 | (words.y >> 22 & 3u) << 5) * (max_specular / 127.0);
+    float root = valueOf(words.x >> 25, 128.0);
+    return root * root * max_specular;
 }
-float packedShininess(uvec2 words) { return exp2(valueOf(words.y, 24, 255u) * log2_max_shininess); }
+float packedShininess(uvec2 words) { return exp2(valueOf(words.x >> 17 & 255u, 256.0) * log2_max_shininess); }
 // end excerpt
 #endif

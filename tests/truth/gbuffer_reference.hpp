@@ -65,21 +65,25 @@ inline int normalBits(const std::string& normals) {
     throw std::invalid_argument("no reference for normals=" + normals);
 }
 
-// A unit normal as the layout gives it back. precise: the nearest of the four octahedral codes around it
-// (Cigolle et al. 2014). Throws std::invalid_argument for a name that it has no formula for.
+// A unit normal in two octahedral numbers of so many codes each. precise: the nearest of the four codes
+// around it (Cigolle et al. 2014).
+inline glm::dvec3 storedOctahedral(double codes, bool precise, const glm::dvec3& n) {
+    const double steps = codes - 1;
+    const glm::dvec2 place = (octahedral(n) * 0.5 + 0.5) * steps;
+    if (!precise) return fromOctahedral(glm::round(place) / steps * 2.0 - 1.0);
+    glm::dvec3 best(0);
+    for (const double x : {std::floor(place.x), std::ceil(place.x)})
+        for (const double y : {std::floor(place.y), std::ceil(place.y)})
+            if (const glm::dvec3 found = fromOctahedral(glm::dvec2(x, y) / steps * 2.0 - 1.0);
+                glm::distance(found, n) < glm::distance(best, n))
+                best = found;
+    return best;
+}
+
+// A unit normal as the layout gives it back. Throws std::invalid_argument for a name that it has no formula
+// for.
 inline glm::dvec3 storedNormal(const std::string& normals, bool precise, const glm::dvec3& n) {
-    if (const int bits = octahedralBits(normals)) {
-        const double steps = std::exp2(bits) - 1;
-        const glm::dvec2 place = (octahedral(n) * 0.5 + 0.5) * steps;
-        if (!precise) return fromOctahedral(glm::round(place) / steps * 2.0 - 1.0);
-        glm::dvec3 best(0);
-        for (const double x : {std::floor(place.x), std::ceil(place.x)})
-            for (const double y : {std::floor(place.y), std::ceil(place.y)})
-                if (const glm::dvec3 found = fromOctahedral(glm::dvec2(x, y) / steps * 2.0 - 1.0);
-                    glm::distance(found, n) < glm::distance(best, n))
-                    best = found;
-        return best;
-    }
+    if (const int bits = octahedralBits(normals)) return storedOctahedral(std::exp2(bits), precise, n);
     if (normals == "rgba32f") return glm::normalize(glm::dvec3(glm::vec3(n)));
     if (normals == "rgba16f") {
         const auto half = [](double v) { return double(glm::unpackHalf1x16(glm::packHalf1x16(float(v)))); };
