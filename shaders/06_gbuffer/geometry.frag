@@ -39,6 +39,9 @@ layout(location = LOCATION_PACKED) out vec4 packed_out;
 layout(location = LOCATION_ALBEDO) out vec4 albedo_out;
 layout(location = LOCATION_NORMAL) out vec4 normal_out;
 #endif
+#if STORES_SPECULAR
+layout(location = LOCATION_SPECULAR) out float specular_out;
+#endif
 #if STORES_POSITION
 layout(location = LOCATION_POSITION) out vec4 position_out;
 #elif STORES_VIEW_Z
@@ -175,8 +178,19 @@ void main() {
     packed_out = packSurface(albedo, specular, normal, width);
 #else
     float gloss = packGloss(width);
-    albedo_out = vec4(albedo, specular);
     normal_out = packNormal(normal);
+#if GLOSS_IN == GLOSS_WITH_SPECULAR && GLOSS == GLOSS_PALETTE
+    specular = packSpecular(specular, material);
+#elif GLOSS_IN == GLOSS_WITH_SPECULAR
+    specular = packSpecular(specular, gloss * 15.0);
+#endif
+#if STORES_SPECULAR
+    // a driver may round to ten bits by more than half a code
+    albedo_out = vec4(floor(sqrt(albedo) * 1023.0 + 0.5) / 1023.0, 0.0);
+    specular_out = specular;
+#else
+    albedo_out = vec4(albedo, specular);
+#endif
 #endif
 #if STORES_POSITION
     position_out = vec4(world_position, 1.0 + material);
@@ -191,10 +205,6 @@ void main() {
     position_out.a = GLOSS == GLOSS_FLOAT ? gloss : 1.0 + gloss; // 0 is the background's
 #elif GLOSS_IN == GLOSS_IN_TARGET
     gloss_out = gloss;
-#elif GLOSS_IN == GLOSS_IN_ALBEDO_ALPHA && GLOSS == GLOSS_PALETTE
-    albedo_out.a = packSpecular(specular, material);
-#elif GLOSS_IN == GLOSS_IN_ALBEDO_ALPHA
-    albedo_out.a = packSpecular(specular, gloss * 15.0);
 #endif
 }
 // end excerpt

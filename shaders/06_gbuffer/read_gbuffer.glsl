@@ -7,6 +7,9 @@ vec2 gbufferSize() { return vec2(textureSize(packed_map, 0)); }
 #else
 uniform sampler2D albedo_map;
 uniform sampler2D normal_map;
+#if STORES_SPECULAR
+uniform sampler2D specular_map;
+#endif
 vec2 gbufferSize() { return vec2(textureSize(normal_map, 0)); }
 #endif
 #if STORES_GEOMETRIC
@@ -27,7 +30,7 @@ uniform mat3 world_from_ray;    // (ndc x, ndc y, 1) to the world vector from th
 #if GLOSS_IN == GLOSS_IN_TARGET
 uniform sampler2D gloss_map;
 #endif
-#if GLOSS_IN == GLOSS_IN_ALBEDO_ALPHA && GLOSS == GLOSS_PALETTE
+#if GLOSS_IN == GLOSS_WITH_SPECULAR && GLOSS == GLOSS_PALETTE
 uniform vec2 material_shininess; // of materials 0 and 1
 #endif
 
@@ -102,14 +105,23 @@ Surface surfaceAt(vec2 uv, vec4 position) {
 }
 #else
 vec3 normalAt(vec2 uv) { return unpackNormal(textureLod(normal_map, uv, 0.0)); }
-vec3 albedoAt(vec2 uv) { return textureLod(albedo_map, uv, 0.0).rgb; }
+// rgb: albedo; a: what holds the specular intensity
+vec4 colorsAt(vec2 uv) {
+    vec4 stored = textureLod(albedo_map, uv, 0.0);
+#if STORES_SPECULAR
+    return vec4(stored.rgb * stored.rgb, textureLod(specular_map, uv, 0.0).r);
+#else
+    return stored;
+#endif
+}
+vec3 albedoAt(vec2 uv) { return colorsAt(uv).rgb; }
 
 Surface surfaceAt(vec2 uv, vec4 position) {
-    vec4 albedo = textureLod(albedo_map, uv, 0.0);
+    vec4 colors = colorsAt(uv);
     vec4 normal = textureLod(normal_map, uv, 0.0);
     Surface surface;
-    surface.albedo = albedo.rgb;
-    surface.specular = albedo.a;
+    surface.albedo = colors.rgb;
+    surface.specular = colors.a;
     surface.world_position = position.xyz;
     surface.world_normal = unpackNormal(normal);
 #if GLOSS_IN == GLOSS_IN_NORMAL_ALPHA
@@ -125,7 +137,7 @@ Surface surfaceAt(vec2 uv, vec4 position) {
 #elif GLOSS_IN == GLOSS_IN_TARGET
     surface.shininess = unpackGloss(textureLod(gloss_map, uv, 0.0).r);
 #else
-    vec2 specular_upper = unpackSpecular(albedo.a);
+    vec2 specular_upper = unpackSpecular(colors.a);
     surface.specular = specular_upper.x;
 #if GLOSS == GLOSS_PALETTE
     surface.shininess = mix(material_shininess.x, material_shininess.y, specular_upper.y);

@@ -56,6 +56,12 @@ const std::vector<Layout> layouts = {
     small("oct16", false),
     {"oct16, float albedo",
      {{"normals", "oct16"}, {"positions", "depth24"}, {"gloss", "8"}, {"albedo", "float"}}},
+    {"oct12, 10-bit albedo",
+     {{"normals", "oct12"},
+      {"precise", "on"},
+      {"positions", "depth24"},
+      {"gloss", "8"},
+      {"albedo", "root10"}}},
     {"packed", {{"packing", "rgba16"}, {"positions", "depth24"}}, "recommended"},
     {"packed, 16-bit depth", {{"packing", "rgba16"}, {"positions", "depth16"}}},
     {"packed, stored positions", {{"packing", "rgba16"}}}};

@@ -23,9 +23,9 @@ GBufferOptions::GBufferOptions(Settings& settings)
       gloss(settings.choice("gloss", "float", {"float", "8", "6", "4", "palette"},
                             "what holds the exponent of highlights: a float; its logarithm in bits; or which "
                             "of two materials it is")),
-      albedo(settings.choice("albedo", "linear", {"float", "linear", "srgb"},
+      albedo(settings.choice("albedo", "linear", {"float", "linear", "srgb", "root10"},
                              "how albedo is stored: 32-bit floats; 8 bits, which have bands in the dark; 8 "
-                             "bits of sRGB")),
+                             "bits of sRGB; 10 bits of its square root, and the specular intensity apart")),
       geometric(
           settings.toggle("geometric", false,
                           "store the normal of the surface without its normal map too, 4 bytes; else it is "
@@ -42,12 +42,12 @@ GBufferOptions::GBufferOptions(Settings& settings)
 GlossPlace GBufferOptions::glossPlace() const {
     if (packing == "rgba16") return GlossPlace::packed;
     const bool in_bits = !(gloss == "float") && !(gloss == "palette");
-    if (gloss == "palette") return GlossPlace::albedo_alpha; // one bit of the specular intensity's eight
+    if (gloss == "palette") return GlossPlace::with_specular; // one bit of the specular intensity's eight
     if (normals == "rgba32f" || normals == "rgba16f") return GlossPlace::normal_alpha;
     if (in_bits && (normals == "rgb8" || normals == "oct12")) return GlossPlace::normal_alpha;
     if (in_bits && normals == "oct10") return GlossPlace::normal_blue;
     if (storesPosition()) return GlossPlace::position_alpha;
-    if (gloss == "4") return GlossPlace::albedo_alpha; // four bits of the eight
+    if (gloss == "4") return GlossPlace::with_specular; // four bits of the eight
     return GlossPlace::target;
 }
 // end excerpt
@@ -66,9 +66,10 @@ std::vector<Attachment> GBufferOptions::attachments() const {
     else
         attachments = {
             {.name = "albedo",
-             .format = format(
-                 albedo,
-                 {{"float", Format::rgba32f}, {"linear", Format::rgba8}, {"srgb", Format::srgb8_alpha8}})},
+             .format = format(albedo, {{"float", Format::rgba32f},
+                                       {"linear", Format::rgba8},
+                                       {"srgb", Format::srgb8_alpha8},
+                                       {"root10", Format::rgb10_a2}})},
             {.name = "normal",
              .format = format(normals, {{"rgb10", Format::rgb10_a2},
                                         {"rgb8", Format::rgba8},
@@ -76,6 +77,7 @@ std::vector<Attachment> GBufferOptions::attachments() const {
                                         {"oct12", Format::rgba8}, // three bytes hold both, see gbuffer.glsl
                                         {"oct10", Format::rgb10_a2},
                                         {"oct8", Format::rg8}})}};
+    if (storesSpecular()) attachments.push_back({.name = "specular", .format = Format::r8});
     if (storesPosition())
         attachments.push_back({.name = "position", .format = formatNamed(positions.name())});
     if (positions == "linear") attachments.push_back({.name = "view_z", .format = Format::r32f});
@@ -106,12 +108,15 @@ Defines GBufferOptions::defines() const {
     const Defines places = {{"GLOSS_IN_NORMAL_ALPHA", "0"},
                             {"GLOSS_IN_NORMAL_BLUE", "1"},
                             {"GLOSS_IN_POSITION_ALPHA", "2"},
-                            {"GLOSS_IN_ALBEDO_ALPHA", "3"},
+                            {"GLOSS_WITH_SPECULAR", "3"},
                             {"GLOSS_IN_TARGET", "4"},
                             {"GLOSS_IN_PACKED", "5"},
                             {"GLOSS_IN", std::to_string(static_cast<int>(glossPlace()))}};
     return packing.defines() + normals.defines() + positions.defines() + gloss.defines() + places +
-           locations + Defines{{"PRECISE", precise ? "1" : "0"}, {"STORES_GEOMETRIC", geometric ? "1" : "0"}};
+           locations +
+           Defines{{"PRECISE", precise ? "1" : "0"},
+                   {"STORES_GEOMETRIC", geometric ? "1" : "0"},
+                   {"STORES_SPECULAR", storesSpecular() ? "1" : "0"}};
 }
 
 std::vector<Draw> withPrograms(ShaderLibrary& shaders, std::vector<Draw> draws, const std::string& stages,

@@ -25,7 +25,7 @@ struct View {
 };
 
 // Where the exponent of a surface's highlight is stored, which no format has a place of its own for.
-enum class GlossPlace { normal_alpha, normal_blue, position_alpha, albedo_alpha, target, packed };
+enum class GlossPlace { normal_alpha, normal_blue, position_alpha, with_specular, target, packed };
 
 struct GBufferOptions {
     // Declares the settings. Every rung but 06 shares them.
@@ -40,6 +40,8 @@ struct GBufferOptions {
     Toggle geometric;
 
     bool storesPosition() const { return positions == "rgba32f" || positions == "rgba16f"; }
+    // Where alpha beside the albedo has too few bits for the specular intensity, it has a target of its own.
+    bool storesSpecular() const { return packing == "separate" && albedo == "root10"; }
     GlossPlace glossPlace() const;
     // In order of location, depth last: the layout. Nearest, as between two surfaces there is none.
     std::vector<Attachment> attachments() const;

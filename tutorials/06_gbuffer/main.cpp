@@ -39,12 +39,12 @@ struct Options {
         all.needs({"exposure_ev", "tone_map"}, {{"view", {"lit", "lit_error"}}});
         all.needs({"encode"}, {{"view", {"lit", "lit_error", "albedo"}}});
         all.preset({"recommended",
-                    "twelve bytes a pixel; two lit pixels in a thousand show a difference",
+                    "twelve bytes a pixel; at most one lit pixel in a thousand shows a difference",
                     {{"packing", "rgba16"}, {"positions", "depth24"}}});
         all.dial({"normals", {"rgba32f", "rgba16f", "oct16", "rgb10", "oct12", "oct10", "rgb8", "oct8"}});
         all.dial({"positions", {"rgba32f", "linear", "depth32f", "depth24", "rgba16f", "depth16"}});
         all.dial({"gloss", {"float", "8", "6", "4"}});
-        all.dial({"albedo", {"float", "srgb", "linear"}});
+        all.dial({"albedo", {"float", "root10", "srgb", "linear"}});
     }
 
     bool showsError() const { return view.name().ends_with("_error"); }
