@@ -1,4 +1,5 @@
 // Light from all round: what reaches a matt surface, what a glossy one mirrors, and how much of it is reflected.
+#include "09_environment_light/environment_terms.glsl"
 #include "09_environment_light/equirectangular.glsl"
 
 #if ENVIRONMENT_DIFFUSE == ENVIRONMENT_DIFFUSE_RAW || ENVIRONMENT_SPECULAR == ENVIRONMENT_SPECULAR_RAW
@@ -6,8 +7,6 @@ uniform sampler2D environment_map; // equirectangular, radiance
 #endif
 #if ENVIRONMENT_DIFFUSE == ENVIRONMENT_DIFFUSE_MIP
 uniform sampler2D coarse_map; // equirectangular, a few pixels
-#elif ENVIRONMENT_DIFFUSE != ENVIRONMENT_DIFFUSE_RAW
-uniform vec3 irradiance_sh[9]; // irradiance / pi, see radiance_map.hpp
 #endif
 #if ENVIRONMENT_SPECULAR == ENVIRONMENT_SPECULAR_PREFILTERED
 // level r (1.7 - 0.7 r) prefiltered_levels holds GGX roughness r
@@ -22,10 +21,20 @@ uniform float prefiltered_levels;  // number of the last
 uniform float prefiltered_size; // texels along a side of level 0
 #endif
 #endif
-#define SUN_BY_ITSELF (ENVIRONMENT_SUN && ENVIRONMENT_SPECULAR == ENVIRONMENT_SPECULAR_PREFILTERED)
-#if SUN_BY_ITSELF || ENVIRONMENT_DIFFUSE == ENVIRONMENT_DIFFUSE_SH9_SUN
-uniform vec3 to_brightest;         // unit length
-uniform vec3 brightest_irradiance; // over pi, of a surface that faces it
+#ifdef ENVIRONMENT_HANDED_ON // by the vertex stage, see hand_on.glsl
+#define ENVIRONMENT_INPUT flat in
+#define irradiance_sh flat_irradiance_sh
+#define to_brightest flat_to_brightest
+#define brightest_irradiance flat_brightest_irradiance
+#else
+#define ENVIRONMENT_INPUT uniform
+#endif
+#if HAS_SH
+ENVIRONMENT_INPUT vec3 irradiance_sh[9]; // irradiance / pi, see radiance_map.hpp
+#endif
+#if HAS_BRIGHTEST
+ENVIRONMENT_INPUT vec3 to_brightest;         // unit length
+ENVIRONMENT_INPUT vec3 brightest_irradiance; // over pi, of a surface that faces it
 #endif
 #if SUN_BY_ITSELF
 uniform float brightest_spread; // half of its mean squared angle, radians squared

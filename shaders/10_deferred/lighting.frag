@@ -5,6 +5,7 @@
 #include "07_shadow_map/shadow.glsl"
 #endif
 #if ENVIRONMENT
+#define ENVIRONMENT_HANDED_ON
 #include "09_environment_light/environment.glsl"
 #endif
 #include "08_ssao/read_ssao.glsl"
@@ -18,8 +19,8 @@ uniform vec3 camera_position; // world
 uniform vec3 to_sun;          // world, unit length
 #endif
 #if POINTS
-uniform vec3 point_position[3]; // world
-uniform vec3 point_color[3];    // linear
+flat in vec3 flat_point_position[3]; // world
+flat in vec3 flat_point_color[3];    // linear
 #endif
 
 out vec4 lit_color; // linear, [0, infinity); alpha 0: background
@@ -63,9 +64,9 @@ vec3 pointLight(Surface surface, vec3 to_camera, vec3 light_position, vec3 light
 
 // Written out: software rasterisers look arrays up pixel by pixel where the index is not a constant.
 vec3 pointLights(Surface surface, vec3 to_camera) {
-    return pointLight(surface, to_camera, point_position[0], point_color[0]) +
-           pointLight(surface, to_camera, point_position[1], point_color[1]) +
-           pointLight(surface, to_camera, point_position[2], point_color[2]);
+    return pointLight(surface, to_camera, flat_point_position[0], flat_point_color[0]) +
+           pointLight(surface, to_camera, flat_point_position[1], flat_point_color[1]) +
+           pointLight(surface, to_camera, flat_point_position[2], flat_point_color[2]);
 }
 // end excerpt
 #endif

@@ -182,7 +182,8 @@ class Deferred final : public Rung {
                                           {"ENVIRONMENT", options_.environment ? "1" : "0"}},
                        .uniforms = {{"point_position", point_positions_}, {"point_color", point_colors_}}};
         if (options_.environment) part += environment_.part(options_.environment_light);
-        const Program& program = shaders_.fullScreen("10_deferred/lighting.frag", part.defines);
+        const Program& program =
+            shaders_.program("10_deferred/lighting.vert", "10_deferred/lighting.frag", part.defines);
         frame.pass("lighting", lit_, {.program = program, .part = part, .clear_color = glm::vec4(0)});
     }
     // end excerpt
