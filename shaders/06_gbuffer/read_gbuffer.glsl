@@ -81,9 +81,10 @@ vec3 geometricNormalAt(vec2 uv, vec3 world_position) {
     vec3 right = positionAt(uv + vec2(texel.x, 0.0)).xyz - world_position;
     vec3 below = world_position - positionAt(uv - vec2(0.0, texel.y)).xyz;
     vec3 above = positionAt(uv + vec2(0.0, texel.y)).xyz - world_position;
-    vec3 across = dot(left, left) < dot(right, right) ? left : right;
-    vec3 up = dot(below, below) < dot(above, above) ? below : above;
-    return normalOf(across, up);
+    // nothing is known beyond the screen's border
+    bool by_left = uv.x > 1.0 - texel.x || (uv.x > texel.x && dot(left, left) < dot(right, right));
+    bool by_below = uv.y > 1.0 - texel.y || (uv.y > texel.y && dot(below, below) < dot(above, above));
+    return normalOf(by_left ? left : right, by_below ? below : above);
 }
 #endif
 // end excerpt
