@@ -174,14 +174,22 @@ class Blesser {
 
     std::string replace(Case one, const Blessing& blessing, const Image& image,
                         const std::string& what) const {
-        for (const Blessing& before : one.blessed)
+        std::string gone; // by other renderers, whose frames nobody here can look at
+        for (const Blessing& before : one.blessed) {
             if (!before.picture.empty()) fs::remove(suite_.folder / before.picture);
+            if (before.renderer == renderer_) continue;
+            gone += (gone.empty() ? "" : ", ") +
+                    (before.renderer.empty() ? "an unnamed renderer" : before.renderer) +
+                    (before.picture.empty() ? "" : " (" + before.picture + ")");
+        }
         const fs::path picture = suite_.pictureOf(one.name);
         saveImage(picture.empty() ? suite_.folder / (one.name + "." + suite_.format) : picture, image);
         one.blessed = {blessing};
         writeCase(suite_.fileOf(one.name), one);
         addToList(suite_, one.name);
-        return what;
+        return what + (gone.empty() ? ""
+                                    : "; gone with it is what was blessed of " + gone +
+                                          ": look at it anew, and add it there by --also");
     }
 
     // NAME.2.png, NAME.3.png, ...

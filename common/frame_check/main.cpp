@@ -6,11 +6,13 @@
 #include "frame_check/report.hpp"
 #include "frame_check/review.hpp"
 #include "frame_check/say.hpp"
+#include "process/temporary_folder.hpp"
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
 #include <new>
+#include <optional>
 #include <stdexcept>
 
 namespace gll::frame_check {
@@ -105,6 +107,7 @@ std::string titleOf(const Options& options) {
 
 int checkAndSay(const Options& options) {
     if (options.reviews) requirePerson();
+    std::optional<FolderRemoval> removal(std::in_place);
     std::vector<SuiteResult> results = checkAll(options);
     const Counts counts = countsOf(results);
     if (!options.suite.empty()) std::puts(counts.text().c_str());
@@ -115,6 +118,7 @@ int checkAndSay(const Options& options) {
     if (!options.junit.empty()) writeJunit(options.junit, results);
     if (!options.warnings.empty()) writeWarnings(options.warnings, results);
     if (std::fflush(stdout) != 0) throw std::runtime_error("stdout: cannot be written, make room there");
+    removal.reset(); // a review has its own way of ending
     if (options.reviews)
         review(results,
                {.title = titleOf(options), .changes = changesIn(options), .adds = options.bless.adds});
@@ -126,6 +130,7 @@ int blessSuite(Options options) {
     if (options.suite.empty()) throw UsageError("--bless needs --suite DIR");
     if (options.words.empty() && !options.all)
         throw UsageError("--bless: name the cases whose frames you have looked at, or say --all");
+    const FolderRemoval removal;
     const SuiteChanges changes = changesIn(options);
     std::vector<Suite> suites = readSuites(options.suite, changes, options.bless.makes);
     if (suites.size() > 1) throw UsageError("--bless: name one suite of " + options.suite);
@@ -173,6 +178,7 @@ int mutateSuite(Options options) {
         throw UsageError("--mutate needs --suite DIR, whose frames should show the faults");
     if (!std::filesystem::is_directory(options.shaders))
         throw UsageError("--mutate " + options.shaders + ": there is no such folder of shaders");
+    const FolderRemoval removal;
     MutationOptions& mutation = options.mutation;
     mutation.shaders = options.shaders;
     mutation.within = [](const Suite& suite, const std::filesystem::path& folder) {

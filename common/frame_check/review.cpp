@@ -81,8 +81,9 @@ class Reviewer {
               "'none'; frame-ancestors 'none'"}});
         server_.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
             const std::string why = refusal(request);
-            if (why.empty()) return httplib::Server::HandlerResponse::Unhandled;
-            answer(response, 403, {{"error", why}});
+            const std::string why_body = why.empty() ? refusalOfBody(request) : "";
+            if (why.empty() && why_body.empty()) return httplib::Server::HandlerResponse::Unhandled;
+            answer(response, why.empty() ? 415 : 403, {{"error", why.empty() ? why_body : why}});
             return httplib::Server::HandlerResponse::Handled;
         });
         const std::string place = "/" + token_ + "/";
@@ -107,6 +108,14 @@ class Reviewer {
         if (is_told ? request.get_header_value("Origin") != "http://" + here_ : request.method != "GET")
             return "not from another page";
         if (!request.path.starts_with("/" + token_ + "/")) return "not without the token of this review";
+        return "";
+    }
+
+    // Why a body is not read; "" where it is. Only of one that says its length, and is not packed, does the
+    // limit hold before it is in memory.
+    static std::string refusalOfBody(const httplib::Request& request) {
+        if (request.has_header("Content-Encoding")) return "not packed";
+        if (request.has_header("Transfer-Encoding")) return "not without its length";
         return "";
     }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 namespace gll {
@@ -25,6 +26,19 @@ class TemporaryFolder {
 
   private:
     std::filesystem::path path_;
+};
+
+// While one lives, SIGINT, SIGTERM and SIGHUP end this process as they would, once its temporary folders are
+// removed. A signal that is ignored stays so. Throws std::runtime_error where the system has no pipe for it.
+class FolderRemoval {
+  public:
+    FolderRemoval();
+    ~FolderRemoval();
+    FolderRemoval(const FolderRemoval&) = delete;
+    FolderRemoval& operator=(const FolderRemoval&) = delete;
+
+  private:
+    std::thread watcher_;
 };
 
 // All bytes of a file; nothing where it cannot be read.

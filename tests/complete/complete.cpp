@@ -1,6 +1,7 @@
 // Which cases are missing, by the rung's settings.
 #include "complete/complete.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <set>
 #include <stdexcept>
@@ -80,6 +81,19 @@ std::vector<std::string> missingCases(const nlohmann::json& listed,
     for (const auto& [name, reason] : excuses)
         if (!missing.contains(name))
             sentences.push_back(name + " failed: excused, but a case shows it, or there is no such setting");
+    return sentences;
+}
+
+std::vector<std::string> ungroupedCases(const std::string& rung,
+                                        const std::vector<frame_check::Case>& cases) {
+    std::vector<std::string> sentences;
+    for (const frame_check::Case& golden : cases)
+        if (std::none_of(golden.blessed.begin(), golden.blessed.end(),
+                         [](const frame_check::Blessing& blessing) { return blessing.targets.is_object(); }))
+            sentences.push_back(golden.name +
+                                " failed: its intermediate targets are not noted, so that a report "
+                                "cannot say where it differs first; tests/bless " +
+                                rung + " " + golden.name);
     return sentences;
 }
 

@@ -23,4 +23,7 @@ Excuses readExcuses(const std::filesystem::path& json_file, const std::string& r
 std::vector<std::string> missingCases(const nlohmann::json& listed,
                                       const std::vector<frame_check::Case>& cases, const Excuses& excuses);
 
+// A sentence for each case of whose frame no blessing notes the intermediate targets.
+std::vector<std::string> ungroupedCases(const std::string& rung, const std::vector<frame_check::Case>& cases);
+
 } // namespace gll::test

@@ -3,6 +3,7 @@
 #include "support/process.hpp"
 
 #include <cstdio>
+#include <utility>
 
 int main(int argc, char** argv) {
     using namespace gll;
@@ -20,8 +21,11 @@ int main(int argc, char** argv) {
             const auto suites = frame_check::readSuites(tests / "golden" / rung);
             const auto listed =
                 nlohmann::json::parse(test::runToSuccess({program, {"--settings", "--json"}}).out);
-            for (const std::string& sentence : test::missingCases(
-                     listed, suites.at(0).cases, test::readExcuses(tests / "complete/excused.json", rung))) {
+            std::vector<std::string> sentences = test::missingCases(
+                listed, suites.at(0).cases, test::readExcuses(tests / "complete/excused.json", rung));
+            for (std::string& sentence : test::ungroupedCases(rung, suites.at(0).cases))
+                sentences.push_back(std::move(sentence));
+            for (const std::string& sentence : sentences) {
                 std::printf("%s: %s\n", rung.c_str(), sentence.c_str());
                 ++failures;
             }

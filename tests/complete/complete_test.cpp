@@ -48,5 +48,13 @@ TEST(CompleteGoldens, takeAnExcuseAndRefuseOneThatIsNotNeeded) {
     EXPECT_EQ(missingCases(listed_settings, all, {{"blurred", "reason"}}).size(), 1U);
 }
 
+TEST(CompleteGoldens, noteTheIntermediateTargetsOfEveryCase) {
+    frame_check::Case golden{.name = "a", .blessed = {{}, {.targets = {{"scene", "hash"}}}}};
+    EXPECT_EQ(ungroupedCases("01_x", {golden}), std::vector<std::string>{});
+    golden.blessed.pop_back();
+    EXPECT_EQ(ungroupedCases("01_x", {golden}).size(), 1U);
+    EXPECT_NE(ungroupedCases("01_x", {golden}).at(0).find("tests/bless 01_x a"), std::string::npos);
+}
+
 } // namespace
 } // namespace gll::test

@@ -60,12 +60,23 @@ class Viewer {
     return names.map((name) => named[name]).filter((pane) => pane.canvas);
   }
 
+  // What a pane shows, with its size where the other one has another.
+  labelOf(name) {
+    const { frame, reference } = this;
+    const pane = { new: frame, reference }[name];
+    if (!pane || !frame || !reference || (frame.width === reference.width && frame.height === reference.height)) return name;
+    return `${name}, ${pane.width}x${pane.height}`;
+  }
+
   paneWidth() { return this.canvas.clientWidth / this.panes().length; }
 
   fit() {
-    const fitting = Math.min((this.paneWidth() - 8) / this.any.width, (this.canvas.clientHeight - 8) / this.any.height);
+    // All of the larger one: of two sizes, both stand at one scale from their upper left corners.
+    const width = Math.max(this.frame?.width ?? 0, this.reference?.width ?? 0);
+    const height = Math.max(this.frame?.height ?? 0, this.reference?.height ?? 0);
+    const fitting = Math.min((this.paneWidth() - 8) / width, (this.canvas.clientHeight - 8) / height);
     this.scale = fitting > 1 ? Math.floor(fitting) : fitting;
-    this.center = { x: this.any.width / 2, y: this.any.height / 2 };
+    this.center = { x: width / 2, y: height / 2 };
     this.isFitted = true;
     this.draw();
   }
@@ -117,8 +128,8 @@ class Viewer {
     context.fillStyle = "#000";
     for (let i = 1; i < panes.length; ++i) context.fillRect(Math.round(i * width / panes.length) - 2, 0, 4, height);
     if (this.mode === "swipe") this.drawSwipe(context, width, height);
-    const labels = this.mode === "swipe" ? [["new", "left:.5em"], ["reference", "right:.5em"]]
-      : panes.map((pane, i) => [pane.label, `left:calc(${100 * i / panes.length}% + .5em)`]);
+    const labels = this.mode === "swipe" ? [[this.labelOf("new"), "left:.5em"], [this.labelOf("reference"), "right:.5em"]]
+      : panes.map((pane, i) => [this.labelOf(pane.label), `left:calc(${100 * i / panes.length}% + .5em)`]);
     this.labels.replaceChildren(...labels.map(([text, style]) => {
       const label = document.createElement("span");
       label.textContent = text;

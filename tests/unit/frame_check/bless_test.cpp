@@ -119,6 +119,27 @@ TEST_F(Bless, addsWhatAnotherRendererDrawsBesideWhatIsThere) {
     EXPECT_EQ(outcome("a"), frame_check::Outcome::different) << "one pixel by 50 codes";
 }
 
+TEST_F(Bless, namesWhatOfOtherRenderersGoesWithAPictureThatIsReplaced) {
+    const auto by = [](const Image& image, const std::string& renderer, const std::string& more) {
+        return R"({"hash": ")" + measure::pixelHash(image) + R"(", "renderer": ")" + renderer +
+               R"(", "date": "2026-01-02")" + more + "}";
+    };
+    copying_.writeCase("a", R"({"blessed": [)" + by(grey(), "a copying machine", "") + ", " +
+                                by(changed(3, 1), "the near one", "") + ", " +
+                                by(changed(900, 70), "the far one", R"(, "picture": "a.2.png")") + "]}");
+    saveImage(copying_.path() / "a.png", grey());
+    saveImage(copying_.path() / "a.2.png", changed(900, 70));
+    copying_.draws("a", changed(76800, 50));
+    EXPECT_TRUE(bless({.names = {"a"}}));
+    EXPECT_CONTAINS(
+        said_, "picture replaced; gone with it is what was blessed of the near one, the far one (a.2.png): "
+               "look at it anew, and add it there by --also");
+    EXPECT_FALSE(std::filesystem::exists(copying_.path() / "a.2.png"));
+    copying_.draws("a", grey());
+    EXPECT_TRUE(bless({.names = {"a"}}));
+    EXPECT_EQ(said_.find("gone with it"), std::string::npos) << "nobody else's was there: " << said_;
+}
+
 TEST_F(Bless, refusesInCiAndWithoutAReasonOrACase) {
     copying_.writeCase("a", "{}");
     copying_.draws("a", grey());

@@ -4,7 +4,10 @@
 #include "support/messages.hpp"
 #include "support/process.hpp"
 
+#include <chrono>
+#include <csignal>
 #include <gtest/gtest.h>
+#include <thread>
 
 namespace gll::test {
 namespace {
@@ -56,6 +59,39 @@ TEST(FrameCheck, refusesWrongUsageInOneLineAndEndsWith2) {
         EXPECT_CONTAINS(result.err, why);
         EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
     }
+}
+
+TEST(FrameCheck, leavesNoTemporaryFolderWhereASignalEndsIt) {
+    const CopyingSuite copying;
+    const std::string suite = copying.path().string();
+    const std::string picture = (copying.drawn() / "a.png").string();
+    copying.writeCase("a",
+                      R"({"command": ["sh", "-c", "cp )" + picture + R"( {out}; sleep 0.2", "{shaders}"]})");
+    copying.draws("a", grey());
+    ASSERT_EQ(frameCheck({"--suite", suite, "--bless", "a", "--because", "x", "--with", "shaders=none"},
+                         {{"CI", std::nullopt}})
+                  .exit_code,
+              0);
+    const TemporaryFolder shaders;
+    const TemporaryFolder temporary;
+    shaders.write("a.frag", "void main() { color = a * 0.25 + b * 0.5 - c; }\n");
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"--with", "shaders=none"}, {"--mutate", shaders.path().string()}})
+        for (const int number : {SIGINT, SIGTERM, SIGHUP})
+            for (const int later_ms : {0, 300}) {
+                std::vector<std::string> all{"--suite", suite};
+                all.insert(all.end(), arguments.begin(), arguments.end());
+                Process process({FRAME_CHECK, all, {{"TMPDIR", temporary.path().string()}}});
+                while (temporary.listing().empty() && !process.poll())
+                    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                if (arguments[0] == "--mutate")
+                    std::this_thread::sleep_for(std::chrono::milliseconds(later_ms));
+                process.signal(number);
+                const ProcessResult result = process.wait(std::chrono::seconds(20));
+                EXPECT_TRUE(result.signalled) << result.out << result.err;
+                EXPECT_EQ(result.exit_code, 128 + number) << result.out << result.err;
+                EXPECT_EQ(temporary.listing(), std::vector<std::string>()) << arguments[0] << " " << number;
+            }
 }
 
 TEST(FrameCheck, ofASuiteSaysALineACaseAndNeverBlessesInCi) {
