@@ -6,6 +6,7 @@
 #include "measure/raster.hpp"
 
 #include <functional>
+#include <limits>
 
 namespace gll::measure {
 
@@ -18,12 +19,19 @@ inline constexpr double most_pixels_per_degree = 1000; // filters have radii of 
 // std::invalid_argument where pixels_per_degree is out of range.
 int flipReachPx(double pixels_per_degree);
 
+// The rows of a map that are wanted, both included; the others stay 0. What lies around them counts all the
+// same.
+struct Rows {
+    int first = 0;
+    int last = std::numeric_limits<int>::max();
+};
+
 // LDR-FLIP of two pictures in linear display light (decoded; values outside [0, 1] are clamped, as displays
 // do): for each pixel 0 (no difference) to 1. Beyond the edges the nearest pixel's colour goes on. Symmetric.
 // Throws std::invalid_argument where sizes differ, a colour is not finite, or pixels_per_degree is out of
 // range.
 ScalarImage flip(const ColorImage& display_light, const ColorImage& reference_display_light,
-                 double pixels_per_degree = default_pixels_per_degree);
+                 double pixels_per_degree = default_pixels_per_degree, const Rows& rows = {});
 
 // The exposures that HDR-FLIP looks at, in EV: `count` of them, evenly from start to stop.
 struct Exposures {
@@ -54,7 +62,7 @@ HdrFlip hdrFlip(const ColorImage& linear_image, const ColorImage& linear_referen
 
 // The map alone, for exposures chosen before: those of a whole picture where only a part of it is given.
 ScalarImage hdrFlip(const ColorImage& linear_image, const ColorImage& linear_reference,
-                    const Exposures& exposures, double pixels_per_degree);
+                    const Exposures& exposures, double pixels_per_degree, const Rows& rows = {});
 
 // The map of two images of one kind: FLIP of display values (color space srgb), HDR-FLIP of linear light.
 // What flip() and hdrFlip() say of their linearColor(), to the bit, but computed only where a difference

@@ -14,8 +14,11 @@
 namespace gll::measure {
 namespace {
 
-constexpr int band_rows = 128; // of 3840 pixels: 50 MB a thread, and 16 % of the rows are computed twice
+constexpr int band_rows = 128;
 constexpr std::size_t pixels_worth_a_thread = std::size_t(1) << 18;
+// Of a band, for each pixel: two pictures of three doubles, twice, and the map. 60 MB of 3840 columns.
+constexpr std::size_t band_pixel_bytes = (2 * 2 * 3 + 1) * sizeof(double);
+constexpr std::size_t most_bytes = std::size_t(512) << 20; // of all bands under way, as long as one has room
 
 // Columns from first to last, or none.
 struct Extent {
@@ -93,7 +96,8 @@ class Bands {
         const int count = (map_.height + band_rows - 1) / band_rows;
         const std::size_t worth = std::max<std::size_t>(map_.pixels.size() / pixels_worth_a_thread, 1);
         const std::size_t threads =
-            std::min<std::size_t>(worth, std::max(std::thread::hardware_concurrency(), 1U));
+            std::min({worth, std::max<std::size_t>(std::thread::hardware_concurrency(), 1),
+                      std::max<std::size_t>(most_bytes / bandBytes(), 1)});
         const auto work = [&] {
             try {
                 for (int band = next_++; band < count; band = next_++)
@@ -113,6 +117,11 @@ class Bands {
     }
 
   private:
+    std::size_t bandBytes() const {
+        return static_cast<std::size_t>(map_.width) * static_cast<std::size_t>(band_rows + 2 * reach_) *
+               band_pixel_bytes;
+    }
+
     void compute(const Extent& rows) {
         const Extent seen_rows = rows.grown(reach_, map_.height);
         Extent differing;
@@ -123,8 +132,9 @@ class Bands {
         const Extent seen_columns = columns.grown(reach_, map_.width);
         const ColorImage one = linearColor(cropped(image_, seen_columns, seen_rows));
         const ColorImage other = linearColor(cropped(reference_, seen_columns, seen_rows));
-        const ScalarImage part = exposures_ ? hdrFlip(one, other, *exposures_, pixels_per_degree_)
-                                            : flip(one, other, pixels_per_degree_);
+        const Rows wanted{rows.first - seen_rows.first, rows.last - seen_rows.first};
+        const ScalarImage part = exposures_ ? hdrFlip(one, other, *exposures_, pixels_per_degree_, wanted)
+                                            : flip(one, other, pixels_per_degree_, wanted);
         for (int y = rows.first; y <= rows.last; ++y)
             for (int x = columns.first; x <= columns.last; ++x)
                 map_.at(x, y) = part.at(x - seen_columns.first, y - seen_rows.first);

@@ -119,12 +119,14 @@ std::string Process::lastErrorLine() const {
     return begin == std::string::npos ? text.substr(0, end) : text.substr(begin + 1, end - begin - 1);
 }
 
-ProcessResult Process::ended(int status, long peak_memory_kib) {
+ProcessResult Process::ended(int status, const rusage& usage) {
     id_ = -1;
     ProcessResult result;
     result.signalled = WIFSIGNALED(status);
     result.exit_code = result.signalled ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
-    result.peak_memory_kib = peak_memory_kib;
+    result.peak_memory_kib = usage.ru_maxrss;
+    for (const timeval& time : {usage.ru_utime, usage.ru_stime})
+        result.cpu_seconds += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
     result.out = contents(out_);
     result.err = contents(err_);
     return result;
@@ -134,7 +136,7 @@ std::optional<ProcessResult> Process::poll() {
     int status = 0;
     rusage usage{};
     if (wait4(id_, &status, WNOHANG, &usage) == 0) return std::nullopt;
-    return ended(status, usage.ru_maxrss);
+    return ended(status, usage);
 }
 
 ProcessResult Process::wait(std::chrono::milliseconds limit) {

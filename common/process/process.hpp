@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <sys/resource.h>
 #include <sys/types.h>
 #include <vector>
 
@@ -16,6 +17,7 @@ struct ProcessResult {
     bool signalled = false;
     bool timed_out = false;   // and was killed for it
     long peak_memory_kib = 0; // the most it had in memory at once
+    double cpu_seconds = 0;   // its own, and those of programs that it waited for
     std::string out;
     std::string err;
 };
@@ -51,7 +53,7 @@ class Process {
     ProcessResult wait(std::chrono::milliseconds limit);
 
   private:
-    ProcessResult ended(int status, long peak_memory_kib);
+    ProcessResult ended(int status, const rusage& usage);
 
     pid_t id_ = -1;
     int out_ = -1; // unlinked files: nobody has to drain them, and nothing is left behind

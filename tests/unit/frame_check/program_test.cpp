@@ -4,10 +4,15 @@
 #include "support/messages.hpp"
 #include "support/process.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <gtest/gtest.h>
+#include <random>
 #include <thread>
+#include <utility>
+#include <vector>
 
 namespace gll::test {
 namespace {
@@ -92,6 +97,57 @@ TEST(FrameCheck, leavesNoTemporaryFolderWhereASignalEndsIt) {
                 EXPECT_EQ(result.exit_code, 128 + number) << result.out << result.err;
                 EXPECT_EQ(temporary.listing(), std::vector<std::string>()) << arguments[0] << " " << number;
             }
+}
+
+#ifdef __SANITIZE_ADDRESS__
+constexpr double slower = 20; // than a release build, at most
+#elif !defined(NDEBUG)
+constexpr double slower = 4;
+#else
+constexpr double slower = 1;
+#endif
+
+Image noise(int width, int height, unsigned seed) {
+    Image image{
+        .width = width, .height = height, .channels = 3, .color_space = ColorSpace::srgb, .pixels = {}};
+    std::mt19937 random(seed);
+    std::vector<std::uint8_t> bytes(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    std::generate(bytes.begin(), bytes.end(), [&] { return static_cast<std::uint8_t>(random() >> 24); });
+    image.pixels = std::move(bytes);
+    return image;
+}
+
+// What tests/README.md says of noise, of which every pixel differs, with as much again for a busy machine.
+TEST(FrameCheck, ofALargePictureTakesSecondsAndLessThanAGibibyte) {
+    const TemporaryFolder folder;
+    saveImage(folder / "a.png", noise(3840, 2160, 1));
+    saveImage(folder / "b.png", noise(3840, 2160, 2));
+    const Result result = frameCheck({(folder / "a.png").string(), (folder / "b.png").string()});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_CONTAINS(result.out, "(100 %)");
+    EXPECT_LT(result.cpu_seconds, 2 * 2 * slower);
+    EXPECT_LT(result.peak_memory_kib, slower * (1 << 20));
+    RecordProperty("cpu_seconds", std::to_string(result.cpu_seconds));
+}
+
+TEST(FrameCheck, ofTwoHundredCasesTakesSeconds) {
+    const CopyingSuite copying;
+    const std::string suite = copying.path().string();
+    for (int i = 0; i < 200; ++i)
+        copying.writeCase("case_" + std::to_string(i), R"({"command": ["cp", ")" +
+                                                           (copying.drawn() / "all.png").string() +
+                                                           R"(", "{out}"]})");
+    copying.draws("all", noise(320, 240, 1));
+    ASSERT_EQ(frameCheck({"--suite", suite, "--bless", "--all", "--because", "x", "--quiet"},
+                         {{"CI", std::nullopt}})
+                  .exit_code,
+              0);
+    copying.draws("all", noise(320, 240, 2));
+    const Result result = frameCheck({"--suite", suite});
+    EXPECT_CONTAINS(result.out, "200 frames: 0 same, 0 tolerated, 200 different");
+    EXPECT_LT(result.cpu_seconds, 2 * 10 * slower);
+    EXPECT_LT(result.peak_memory_kib, slower * (1 << 20));
+    RecordProperty("cpu_seconds", std::to_string(result.cpu_seconds));
 }
 
 TEST(FrameCheck, ofASuiteSaysALineACaseAndNeverBlessesInCi) {
