@@ -125,6 +125,34 @@ std::vector<Chart> chartsOf(const fs::path& tutorials, const std::string& rung, 
     return charts;
 }
 
+bool countsCopies(const Chart& chart) { return chart.x.label.find("copies (cu)") != std::string::npos; }
+
+std::vector<std::vector<std::string>> drawablePoints(const Chart& chart) {
+    std::vector<std::vector<std::string>> all;
+    for (const ChartPoint& point : chart.points) {
+        if (point.values.empty()) continue;
+        all.emplace_back();
+        for (const auto& [name, value] : point.settings)
+            all.back().push_back(name + "=" + value);
+    }
+    return all;
+}
+
+CostsHere costsHere(const Chart& chart, const std::vector<double>& points_cu, double present_cu) {
+    std::vector<double> more;
+    std::size_t next = 0;
+    for (const ChartPoint& point : chart.points)
+        if (!point.values.empty() && next++ < points_cu.size()) more.push_back(points_cu[next - 1] - point.x);
+    if (more.empty() || next != points_cu.size())
+        throw std::logic_error("costs of other points than the chart's");
+    const auto middle = more.begin() + static_cast<std::ptrdiff_t>(more.size() / 2);
+    std::nth_element(more.begin(), middle, more.end());
+    CostsHere here{.points = points_cu, .present = present_cu - *middle, .shared = *middle};
+    for (double& cu : here.points)
+        cu -= *middle;
+    return here;
+}
+
 bool isPresent(const ChartPoint& point, const Settings& settings) {
     return !point.values.empty() &&
            std::all_of(point.values.begin(), point.values.end(),

@@ -39,6 +39,24 @@ struct Chart {
     std::vector<ChartPoint> points;
 };
 
+// Whether x is a cost in copies, which can be counted here.
+bool countsCopies(const Chart& chart);
+
+// The settings of the points that the rung can draw, over its defaults, as KEY=VALUE; in their order.
+std::vector<std::vector<std::string>> drawablePoints(const Chart& chart);
+
+// Where frames counted on this machine lie along x. Charts count what methods differ in, and a frame has
+// more: by how much more, most points agree.
+struct CostsHere {
+    std::vector<double> points; // of drawablePoints()
+    double present = 0;
+    double shared = 0; // what was taken off, cu
+};
+
+// From the copies that frames with the settings of drawablePoints(), and with the present ones, took. Throws
+// std::logic_error where their numbers differ.
+CostsHere costsHere(const Chart& chart, const std::vector<double>& points_cu, double present_cu);
+
 // A chart as the charts program writes it. Throws std::runtime_error "FILE: what" for anything else.
 Chart readChart(const std::filesystem::path& file);
 

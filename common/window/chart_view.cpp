@@ -38,6 +38,12 @@ std::string shortNumber(double value) {
     return buffer;
 }
 
+std::string roundNumber(double value) {
+    char buffer[40];
+    std::snprintf(buffer, sizeof buffer, "%.3g", value);
+    return buffer;
+}
+
 // An axis' range, and how far along it a value is: 0 to 1.
 struct Range {
     double begin = 0;
@@ -144,9 +150,15 @@ class Methods {
 // One chart in one place of the screen.
 class Plot {
   public:
-    Plot(const Chart& chart, ImVec2 low, ImVec2 size)
-        : chart_(chart), methods_(chart), list_(*ImGui::GetWindowDrawList()), em_(ImGui::GetFontSize()) {
+    Plot(const Chart& chart, const std::optional<CostsHere>& here, ImVec2 low, ImVec2 size)
+        : chart_(chart), here_(here), methods_(chart), list_(*ImGui::GetWindowDrawList()),
+          em_(ImGui::GetFontSize()) {
         std::vector<double> xs, ys;
+        if (here) {
+            xs = here->points;
+            xs.push_back(here->present);
+            if (chart.x.is_log) std::erase_if(xs, [](double x) { return x <= 0; });
+        }
         for (const ChartPoint& point : chart.points) {
             xs.push_back(point.x);
             ys.push_back(std::max(point.y, chart.y.floor));
@@ -160,9 +172,10 @@ class Plot {
                  {low.x + size.x - 0.3F * em_, low.y + size.y - 2.6F * em_}};
     }
 
-    ImVec2 place(const ChartPoint& point) const {
+    ImVec2 place(const ChartPoint& point) const { return place(point, point.x); }
+    ImVec2 place(const ChartPoint& point, double x) const {
         const double y = std::max(point.y, chart_.y.floor);
-        return {plot_.low.x + (plot_.high.x - plot_.low.x) * x_.part(point.x),
+        return {plot_.low.x + (plot_.high.x - plot_.low.x) * x_.part(x),
                 plot_.high.y - (plot_.high.y - plot_.low.y) * y_.part(y)};
     }
 
@@ -190,6 +203,7 @@ class Plot {
                 if (point.is_on_front == on_front)
                     methods_.shape(list_, point, place(point), (point.competes ? 0.3F : 0.18F) * em_,
                                    on_front ? 255 : 120);
+        if (here_) drawHere();
         list_.PopClipRect();
         for (std::size_t i = 0; i < chart_.points.size(); ++i) {
             const ImVec2 at = place(chart_.points[i]);
@@ -268,6 +282,23 @@ class Plot {
         }
     }
 
+    // Where this machine has the points, and what the present settings cost: how far off those are, nobody
+    // measured unless they are a point's.
+    void drawHere() {
+        std::size_t next = 0;
+        for (const ChartPoint& point : chart_.points) {
+            if (point.values.empty()) continue;
+            const double x = here_->points[next++];
+            if (chart_.x.is_log && x <= 0) continue;
+            list_.AddLine(place(point), place(point, x), withAlpha(text_color, 110), 0.06F * em_);
+            list_.AddCircle(place(point, x), 0.2F * em_, withAlpha(text_color, 200), 12, 0.08F * em_);
+        }
+        if (chart_.x.is_log && here_->present <= 0) return;
+        const float x = plot_.low.x + (plot_.high.x - plot_.low.x) * x_.part(here_->present);
+        for (float y = plot_.low.y; y < plot_.high.y; y += 0.6F * em_)
+            list_.AddLine({x, y}, {x, std::min(y + 0.35F * em_, plot_.high.y)}, text_color, 0.12F * em_);
+    }
+
     // Beside their points where they cover nothing: what is marked, then the present, then the front's
     // methods.
     void drawLabels(const std::vector<bool>& present) {
@@ -310,6 +341,7 @@ class Plot {
     }
 
     const Chart& chart_;
+    const std::optional<CostsHere>& here_;
     Methods methods_;
     ImDrawList& list_;
     float em_;
@@ -421,7 +453,15 @@ ChartView::ChartView(const Resources& resources, const std::string& rung, Settin
     }
 }
 
-std::vector<std::string> ChartView::draw(const Settings& settings) {
+std::vector<std::vector<std::string>> ChartView::wanted() const {
+    if (charts_.empty() || !countsCopies(charts_[shown_])) return {};
+    return drawablePoints(charts_[shown_]);
+}
+
+std::vector<std::string> ChartView::draw(const Settings& settings,
+                                         const std::optional<CostProbe::Costs>& points,
+                                         const std::optional<CostProbe::Costs>& present_costs,
+                                         bool is_counting) {
     if (charts_.empty()) {
         wrappedText(why_none_);
         return {};
@@ -443,7 +483,11 @@ std::vector<std::string> ChartView::draw(const Settings& settings) {
     const float width = std::max(ImGui::GetContentRegionAvail().x, 8 * em);
     const ImVec2 low = ImGui::GetCursorScreenPos();
     const ImVec2 size(width, std::clamp(0.8F * width, 12 * em, 24 * em));
-    Plot plot(chart, low, size);
+    const std::size_t drawable = wanted().size(); // costs of another chart may come in a last time
+    std::optional<CostsHere> here;
+    if (points && present_costs && drawable > 0 && points->cu.size() == drawable)
+        here = costsHere(chart, points->cu, present_costs->cu[0]);
+    Plot plot(chart, here, low, size);
     std::vector<bool> present;
     for (const ChartPoint& point : chart.points)
         present.push_back(isPresent(point, settings));
@@ -471,6 +515,21 @@ std::vector<std::string> ChartView::draw(const Settings& settings) {
         if (listed.chosen) chosen = listed.chosen;
         if (listed.pointed_at) pointed_at = listed.pointed_at;
         ImGui::TreePop();
+    }
+    // Below, and as high before it is known: it moves nothing.
+    if (drawable > 0 && (here || is_counting)) {
+        ImGui::PushStyleColor(ImGuiCol_Text, faint_color);
+        std::string counted = "Counting the points on this machine ...";
+        if (here)
+            counted = "Here, by " + points->counter +
+                      ": the dashed line is what the present settings cost, " + roundNumber(here->present) +
+                      " cu; small rings are the points. The rest of the frame, " + roundNumber(here->shared) +
+                      " cu, is left out.";
+        const float top = ImGui::GetCursorPosY();
+        wrappedText(counted);
+        ImGui::PopStyleColor();
+        ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), top + 3 * ImGui::GetTextLineHeight() +
+                                                                  ImGui::GetStyle().ItemSpacing.y));
     }
     plot.draw(present, pointed_at);
     return chosen ? changesFor(chart.points[*chosen], settings) : std::vector<std::string>();

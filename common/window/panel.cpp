@@ -252,10 +252,12 @@ void Panel::settingsSection(Settings& settings) {
     }
 }
 
-void Panel::chartSection(Settings& settings) {
+void Panel::chartSection(Settings& settings, const PanelState& state) {
     if (!chart_) chart_.emplace(Resources(), rung_, settings);
-    for (const std::string& set : chart_->draw(settings))
+    for (const std::string& set :
+         chart_->draw(settings, state.point_costs, state.present_costs, state.shows_times))
         settings.set(set);
+    chart_points_ = chart_->wanted();
 }
 
 void Panel::budgetSection(const PanelState& state, PanelActions& actions) {
@@ -349,7 +351,8 @@ PanelActions Panel::draw(const Rectangle& place, float pixels_per_unit, Settings
     ImGui::Separator();
     ImGui::BeginChild("##sections", {0, 0}, false, ImGuiWindowFlags_NavFlattened);
     settingsSection(settings);
-    if (ImGui::CollapsingHeader("Chart")) chartSection(settings);
+    chart_points_.clear();
+    if (ImGui::CollapsingHeader("Chart")) chartSection(settings, state);
     if (!settings.dials().empty() && ImGui::CollapsingHeader("Budget")) budgetSection(state, actions);
     pass_times_open_ = ImGui::CollapsingHeader("Window and times");
     if (pass_times_open_) timesSection(state, actions);

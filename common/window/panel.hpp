@@ -18,16 +18,18 @@ struct PanelState {
     std::string renderer;
     int frame = 0; // 0: nothing rendered yet
     bool is_playing = false;
-    double shown_per_s = 0;           // frames a second that reach the window
-    double frame_time_ms = 0;         // of drawing, not of waiting for the display
-    bool is_gpu_time = false;         // else the wall's, of a renderer in software
-    std::vector<PassTime> pass_times; // empty until asked for
-    std::vector<Reading> readings;    // of the frame shown, where the rung has some
-    double searching_s = 0;           // how long a search within a budget has been under way; 0: none is
-    std::string search_progress;      // what it is at
-    std::string search_answer;        // what the last search found, or why it did not
-    bool has_found = false;           // settings that differ from the present ones
-    std::string edited;               // "A" or "B", where two are compared
+    double shown_per_s = 0;                             // frames a second that reach the window
+    double frame_time_ms = 0;                           // of drawing, not of waiting for the display
+    bool is_gpu_time = false;                           // else the wall's, of a renderer in software
+    std::vector<PassTime> pass_times;                   // empty until asked for
+    std::vector<Reading> readings;                      // of the frame shown, where the rung has some
+    std::optional<CostProbe::Costs> point_costs = {};   // of chartPoints(), as far as they are known
+    std::optional<CostProbe::Costs> present_costs = {}; // of the settings as they are
+    double searching_s = 0;      // how long a search within a budget has been under way; 0: none is
+    std::string search_progress; // what it is at
+    std::string search_answer;   // what the last search found, or why it did not
+    bool has_found = false;      // settings that differ from the present ones
+    std::string edited;          // "A" or "B", where two are compared
     bool can_undo = false;
     bool can_redo = false;
     bool waits_for_display = true; // vertical sync
@@ -63,6 +65,8 @@ class Panel {
     PanelActions draw(const Rectangle& place, float pixels_per_unit, Settings& settings,
                       const PanelState& state);
 
+    // The settings that the chart, where it is in sight, asks to be counted.
+    const std::vector<std::vector<std::string>>& chartPoints() const { return chart_points_; }
     bool wantsPassTimes() const { return pass_times_open_; }
     void focus() { focus_ = true; } // for the keyboard, in the next draw()
 
@@ -76,7 +80,7 @@ class Panel {
     void settingsSection(Settings& settings);
     void table(const char* name, const std::vector<Setting*>& shown, const Settings& settings);
     void row(Setting& setting, double preset_value, const std::string& why_idle);
-    void chartSection(Settings& settings);
+    void chartSection(Settings& settings, const PanelState& state);
     void budgetSection(const PanelState& state, PanelActions& actions);
     void timesSection(const PanelState& state, PanelActions& actions);
     void choosePreset(const std::vector<double>& now); // the one most alike
@@ -87,6 +91,7 @@ class Panel {
     std::string edited_;             // the side that was shown last
     std::size_t preset_ = 0;         // the one that settings are marked to differ from
     std::optional<ChartView> chart_; // once it was looked at
+    std::vector<std::vector<std::string>> chart_points_;
     Budget budget_{Budget::Kind::flip, 0.01};
     bool pass_times_open_ = false;
     bool focus_ = false;

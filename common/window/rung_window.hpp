@@ -65,6 +65,7 @@ class RungWindow {
     std::string probe() const;
     void present(glm::ivec2 window);
     void presentPictures(glm::ivec2 window);
+    void askChartCosts();
     void drawPanels();
     void drawMessages();
     void attend(const PanelActions& asked);
@@ -104,6 +105,8 @@ class RungWindow {
     Inspector inspector_;
     Comparison comparison_;
     CostProbe compared_costs_; // of A and B
+    CostProbe point_costs_;    // of the points of the chart in the panel
+    CostProbe present_costs_;  // beside those
     Panel panel_;
     TimelineBar timeline_bar_;
     Help help_;

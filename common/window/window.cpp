@@ -258,9 +258,25 @@ void RungWindow::presentPictures(glm::ivec2 window) {
     }
 }
 
+// Costs are per pixel, and hardly depend on the frame's size: a small one takes little from the picture that
+// goes on.
+void RungWindow::askChartCosts() {
+    if (!state_.shows_times || panel_.chartPoints().empty()) return;
+    FrameRequest request = shownFrame();
+    request.size = {320, 240};
+    request.first_frame = request.last_frame = 1; // none before it to be rendered
+    point_costs_.ask(request, panel_.chartPoints(), headlessContext(), now());
+    if (point_costs_.costs()) present_costs_.ask(request, {settings_.changed()}, headlessContext(), now());
+}
+
 void RungWindow::drawPanels() {
     const float pixels_per_unit = context_.pixelsPerUnit();
-    if (layout_.panel.isShown()) attend(panel_.draw(layout_.panel, pixels_per_unit, settings_, state_));
+    if (layout_.panel.isShown()) {
+        state_.point_costs = state_.shows_times ? point_costs_.costs() : std::nullopt;
+        state_.present_costs = state_.shows_times ? present_costs_.costs() : std::nullopt;
+        attend(panel_.draw(layout_.panel, pixels_per_unit, settings_, state_));
+        askChartCosts();
+    }
     if (layout_.bar.isShown())
         drawCompareBar(layout_.bar, pixels_per_unit, stage_, comparison_,
                        state_.shows_times ? compared_costs_.costs() : std::nullopt, state_.shows_times);

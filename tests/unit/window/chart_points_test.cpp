@@ -99,6 +99,23 @@ TEST_F(ChartPointsTest, thePresentPointIsFoundByWhatThePointsDifferIn) {
     EXPECT_EQ(chart.points[1].values, (std::map<std::size_t, double>{{0, 1}, {1, 3}, {2, 0.5}}));
 }
 
+TEST_F(ChartPointsTest, costsCountedHereLieWhereMostPointsAgree) {
+    folder.write("04_rung/charts/a.json",
+                 chart(point("04_rung", "") + "," + point("03_other", R"("levels=2")") + "," +
+                       point("04_rung", R"("filter=tent", "levels=3")") + "," +
+                       point("04_rung", R"("radius=0.75")")));
+    const Chart chart = charts().at(0); // all at 2 cu
+    EXPECT_FALSE(countsCopies(chart)) << "its x is in cu, and does not say of what";
+    EXPECT_EQ(drawablePoints(chart),
+              (std::vector<std::vector<std::string>>{{}, {"filter=tent", "levels=3"}, {"radius=0.75"}}));
+    const CostsHere here = costsHere(chart, {7, 12, 7.5}, 9);
+    EXPECT_EQ(here.shared, 5.5);
+    EXPECT_EQ(here.points, (std::vector<double>{1.5, 6.5, 2}));
+    EXPECT_EQ(here.present, 3.5);
+    EXPECT_THROW(costsHere(chart, {7, 12}, 9), std::logic_error);
+    EXPECT_THROW(costsHere(chart, {7, 12, 7.5, 8}, 9), std::logic_error);
+}
+
 TEST_F(ChartPointsTest, whatIsNoChartIsSaidWithItsFile) {
     EXPECT_CONTAINS(errorOf("{"), "parse error");
     EXPECT_CONTAINS(errorOf("{}"), "title");
