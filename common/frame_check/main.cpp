@@ -118,10 +118,11 @@ int checkAndSay(const Options& options) {
     if (!options.junit.empty()) writeJunit(options.junit, results);
     if (!options.warnings.empty()) writeWarnings(options.warnings, results);
     if (std::fflush(stdout) != 0) throw std::runtime_error("stdout: cannot be written, make room there");
-    removal.reset(); // a review has its own way of ending
-    if (options.reviews)
+    if (options.reviews) {
+        removal.reset(); // a review has its own way of ending
         review(results,
                {.title = titleOf(options), .changes = changesIn(options), .adds = options.bless.adds});
+    }
     return countsOf(results).exitCode();
 }
 

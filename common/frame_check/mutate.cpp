@@ -349,10 +349,8 @@ ShaderCopy::ShaderCopy(const fs::path& shaders) : shaders_(shaders) {
     // Not what leads nowhere, such as the lock of an editor in which one of them is open.
     for (const fs::directory_entry& entry :
          fs::recursive_directory_iterator(shaders, fs::directory_options::follow_directory_symlink)) {
-        if (!entry.is_regular_file()) continue;
-        const fs::path there = folder_ / "shaders" / fs::relative(entry.path(), shaders);
-        fs::create_directories(there.parent_path());
-        fs::copy_file(entry.path(), there);
+        if (entry.is_regular_file())
+            folder_.copy(entry.path(), "shaders" / fs::relative(entry.path(), shaders));
     }
 }
 

@@ -1,4 +1,4 @@
-// Starting programs by fork and exec, their output kept in unlinked temporary files.
+// Starting programs by fork and exec, their output kept in files that no folder has.
 #include "process/process.hpp"
 
 #include <cerrno>
@@ -7,6 +7,7 @@
 #include <cstring>
 #include <fcntl.h>
 #include <stdexcept>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -16,11 +17,11 @@
 namespace gll {
 namespace {
 
-int unlinkedFile() {
-    std::string name = (std::filesystem::temp_directory_path() / "gl-ladder-XXXXXX").string();
-    const int file = mkostemp(name.data(), O_CLOEXEC);
-    if (file < 0) throw std::runtime_error(name + ": " + std::strerror(errno));
-    unlink(name.c_str());
+// In memory, so that nothing is left of it however this process ends.
+int namelessFile() {
+    const int file = memfd_create("output", MFD_CLOEXEC);
+    if (file < 0)
+        throw std::runtime_error(std::string("a file for a program's output: ") + std::strerror(errno));
     return file;
 }
 
@@ -91,8 +92,8 @@ Process::Process(const Command& command) {
     };
     const std::vector<char*> arguments = pointers(words);
     const std::vector<char*> environment = pointers(variables);
-    out_ = unlinkedFile();
-    err_ = unlinkedFile();
+    out_ = namelessFile();
+    err_ = namelessFile();
     id_ = fork();
     if (id_ < 0) throw std::runtime_error(std::string("fork: ") + std::strerror(errno));
     if (id_ == 0) become(command, out_, err_, arguments.data(), environment.data());

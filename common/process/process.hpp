@@ -56,7 +56,7 @@ class Process {
     ProcessResult ended(int status, const rusage& usage);
 
     pid_t id_ = -1;
-    int out_ = -1; // unlinked files: nobody has to drain them, and nothing is left behind
+    int out_ = -1; // files in memory: nobody has to drain them, and nothing is left behind
     int err_ = -1;
 };
 

@@ -108,6 +108,7 @@ FolderRemoval::~FolderRemoval() {
 }
 
 fs::path TemporaryFolder::write(const fs::path& name, std::string_view text) const {
+    const std::lock_guard lock(folders().mutex); // it must not come back while a signal removes it
     const fs::path path = path_ / name;
     fs::create_directories(path.parent_path());
     std::ofstream stream(path, std::ios::binary);
@@ -115,6 +116,13 @@ fs::path TemporaryFolder::write(const fs::path& name, std::string_view text) con
     stream.close();
     if (!stream) throw std::runtime_error(path.string() + ": cannot be written");
     return path;
+}
+
+void TemporaryFolder::copy(const fs::path& from, const fs::path& name) const {
+    const std::lock_guard lock(folders().mutex);
+    const fs::path path = path_ / name;
+    fs::create_directories(path.parent_path());
+    fs::copy_file(from, path);
 }
 
 std::vector<std::string> TemporaryFolder::listing() const {

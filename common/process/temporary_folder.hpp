@@ -21,6 +21,8 @@ class TemporaryFolder {
 
     // Writes a file, and the folders that it lies in; returns its path.
     std::filesystem::path write(const std::filesystem::path& name, std::string_view text) const;
+    // Copies a file, and makes the folders that it lies in. Throws std::filesystem::filesystem_error.
+    void copy(const std::filesystem::path& from, const std::filesystem::path& name) const;
     // What lies in it, at any depth, by name.
     std::vector<std::string> listing() const;
 
